@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/length.h"
 #include "knead/formats/read.h"
 
 namespace knead::tools {
@@ -75,10 +76,5 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<vo
 
 /// Refuses an output whose folder does not exist, before any work is done.
 void require_writable_folder(const std::filesystem::path& output);
-
-/// Metres per unit name: m, dm, cm, mm, um, in, ft. Throws bad_usage for another name.
-[[nodiscard]] double metres_per_unit(const std::string& unit);
-/// "0.004", "4mm", "1.5 cm" -> metres. A bare number counts as metres. Throws bad_usage.
-[[nodiscard]] double parse_length_m(const std::string& text);
 
 }  // namespace knead::tools

@@ -2,50 +2,17 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <string>
 
 #include "knead/formats/asset.h"
 #include "knead/formats/result.h"
+#include "knead/runtime/config.h"
 #include "knead/runtime/export.h"
 #include "knead/runtime/pose.h"
+#include "knead/runtime/step_result.h"
 
 namespace knead {
-
-/// What happened in a step; bits, so that several can be told at once. Zero is a good step.
-enum StepStatus : std::uint32_t {
-    kStepOk = 0,
-    kStepNotConverged = 1u << 0,  ///< the solver stopped at its cap; the force is its best estimate
-    kStepNotFinite = 1u << 1,     ///< the state would not be finite: force zero, last good state kept
-    kStepBadInput = 1u << 2,      ///< pose or dt not finite or out of range: force zero, state kept
-    kStepContactCap = 1u << 3,    ///< the set of touched nodes had not settled at its cap
-};
-
-/// Choices that do not belong to the asset.
-struct SimulationConfig {
-    std::size_t tool = 0;               ///< which of the asset's tools the poses of step() move
-    double force_tolerance = 1e-4;      ///< relative bound aimed at for the force error of one step
-    int max_solver_iterations = 500;    ///< of the conjugate gradients, per solve
-    int max_contact_passes = 8;         ///< changes of the touched set tried in one step
-
-    /// Spring and damper between the pose that step() is given (the hand) and the tool in the scene, solved
-    /// together with the object. Zero stiffness: no coupling, the tool is at the given pose.
-    double coupling_stiffness_n_per_m = 0;
-    double coupling_damping_n_s_per_m = 0;
-    double tool_mass_kg = 0.05;         ///< used with a coupling only, > 0
-};
-
-/// What one step yields.
-struct StepResult {
-    /// On the hand: what the object (or, with a coupling, the coupling) exerts. Newtons, scene frame.
-    Vec3 force_n{};
-    std::uint32_t status = kStepOk;     ///< StepStatus bits
-    std::uint32_t solver_iterations = 0;
-    std::uint32_t touched_nodes = 0;
-    Vec3 tool_position_m{};             ///< where the tool is; the given position unless coupled
-};
 
 /// One soft object with one tool: implicit Euler, corotational linear tetrahedra (paper section 3.1, [MG04]).
 ///

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+namespace knead::core {
+
+/// The number type of the whole core; chosen here and nowhere else.
+using Real = double;
+
+using Vec = Eigen::Matrix<Real, 3, 1>;
+using Mat = Eigen::Matrix<Real, 3, 3>;
+using Quat = Eigen::Quaternion<Real, Eigen::DontAlign>;
+
+/// One vector per node, asset node order.
+using Field = std::vector<Vec>;
+
+/// A rigid placement: tool frame to scene frame.
+struct Frame {
+    Vec position = Vec::Zero();
+    Mat rotation = Mat::Identity();
+
+    [[nodiscard]] Vec to_scene(const Vec& local) const { return position + rotation * local; }
+    [[nodiscard]] Vec to_local(const Vec& scene) const { return rotation.transpose() * (scene - position); }
+};
+
+}  // namespace knead::core

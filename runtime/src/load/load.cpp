@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "knead/formats/read.h"
+#include "knead/runtime/simulation.h"
+
+namespace knead {
+
+Result<Simulation> Simulation::load(const std::filesystem::path& asset_file, const SimulationConfig& config) {
+    Result<Asset> asset = read_asset(asset_file);
+    if (!asset) return asset.error();
+    return create(asset.value(), config);
+}
+
+}  // namespace knead

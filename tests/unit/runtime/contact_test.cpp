@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/contact.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "unit/runtime/press.h"
+
+namespace knead::test {
+namespace {
+
+using core::Stepper;
+using core::Vec;
+
+/// No slip: two independent programs. Free slip: the factor 1.033 of the design's experiments, known to 3 digits.
+constexpr double kPressedCube_n = 23.82645;
+constexpr double kPressedCubeTolerance_n = 1e-5;
+/// A pull of the object on the tool that is solver error, relative to the largest push.
+constexpr double kPullTolerance = 1e-4;
+
+struct Trace {
+    std::vector<Vec3> forces_n;
+    std::vector<std::uint32_t> touched;
+    std::uint32_t status = 0;
+    double largest_push_n = 0;
+    double largest_pull_n = 0;
+    double deepest_m = 0;  ///< of any tool node inside the tool
+};
+
+/// Into the object by `depth_m` and out again to 20 mm above, at constant speed; dt 1 ms.
+Trace press_and_leave(const Asset& asset, double depth_m, double speed_m_per_s, const SimulationConfig& config) {
+    Stepper stepper(asset, config);
+    Trace trace;
+    const double dt = 1e-3;
+    const double start_m = 0.001;
+    const int down = static_cast<int>((depth_m + start_m) / (speed_m_per_s * dt));
+    const int up = static_cast<int>((depth_m + 0.02) / (speed_m_per_s * dt));
+    for (int i = 1; i <= down + up; ++i) {
+        const double z = i <= down ? start_m - speed_m_per_s * dt * i : -depth_m + speed_m_per_s * dt * (i - down);
+        const Pose pose = moved(asset, {0, 0, z});
+        const StepResult result = stepper.step(pose, dt);
+        trace.forces_n.push_back(result.force_n);
+        trace.touched.push_back(result.touched_nodes);
+        trace.status |= result.status;
+        trace.largest_push_n = std::max(trace.largest_push_n, result.force_n[2]);
+        trace.largest_pull_n = std::max(trace.largest_pull_n, -result.force_n[2]);
+        for (const auto node : asset.tools[0].nodes) {
+            const Vec local = stepper.positions_m()[node] - Vec(pose.position_m[0], pose.position_m[1], pose.position_m[2]);
+            const double inside = asset.tools[0].shape == ToolShape::sphere ? asset.tools[0].radius_m - local.norm()
+                                                                            : local.z();
+            trace.deepest_m = std::max(trace.deepest_m, inside);
+        }
+    }
+    return trace;
+}
+
+class Touch : public testing::TestWithParam<std::tuple<ToolShape, ToolContact>> {};
+
+TEST_P(Touch, and_leave_never_pulls_and_never_penetrates) {
+    const auto [shape, contact] = GetParam();
+    const Asset asset = cube_asset(6, shape, contact);
+    const Trace trace = press_and_leave(asset, 0.01, 0.05, {});
+    EXPECT_EQ(trace.status, kStepOk);
+    EXPECT_GT(trace.largest_push_n, 1);
+    EXPECT_LT(trace.largest_pull_n, kPullTolerance * trace.largest_push_n);
+    EXPECT_LT(trace.deepest_m, 1e-6);
+    EXPECT_EQ(trace.touched.front(), 0u);
+    EXPECT_EQ(trace.touched.back(), 0u);
+    EXPECT_EQ(trace.forces_n.back(), Vec3{});
+}
+
+TEST_P(Touch, changes_the_force_no_more_than_stiffness_and_caught_inertia_explain) {
+    const auto [shape, contact] = GetParam();
+    const Asset asset = cube_asset(6, shape, contact);
+    const double speed = 0.02, dt = 1e-3;
+    const Trace trace = press_and_leave(asset, 0.01, speed, {});
+    // A caught node takes the tool's speed within one step; it weighs at most a cell (4.6 g) at each of the nodes
+    // caught at once. Stiffness of the whole cube against the plate: 2.4 kN/m at rest, three times that for slack.
+    const double cell_kg = 1.0 / 216;
+    const double stiff_jump_n = 3 * 2400 * speed * dt;
+    for (std::size_t i = 1; i < trace.forces_n.size(); ++i) {
+        const double change = std::abs(trace.forces_n[i][2] - trace.forces_n[i - 1][2]);
+        const auto now = static_cast<double>(std::max(trace.touched[i], trace.touched[i - 1]));
+        const auto before = static_cast<double>(std::min(trace.touched[i], trace.touched[i - 1]));
+        const bool settling = i > 1 && trace.touched[i - 1] != trace.touched[i - 2];  // the caught inertia goes again
+        const auto last = settling ? std::abs(static_cast<double>(trace.touched[i - 1]) -
+                                              static_cast<double>(trace.touched[i - 2]))
+                                   : 0.0;
+        const double caught = now - before + last;
+        EXPECT_LT(change, stiff_jump_n + caught * cell_kg * 2 * speed / dt) << "step " << i;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Tools, Touch,
+    testing::Combine(testing::Values(ToolShape::plate, ToolShape::sphere),
+                     testing::Values(ToolContact::sticking, ToolContact::frictionless)),
+    [](const auto& tested) {
+        return std::string(std::get<0>(tested.param) == ToolShape::plate ? "plate" : "sphere") +
+               (std::get<1>(tested.param) == ToolContact::sticking ? "_sticking" : "_frictionless");
+    });
+
+TEST(Plate, that_sticks_settles_at_the_force_of_a_bonded_press) {
+    const Asset asset = cube_asset(6, ToolShape::plate, ToolContact::sticking);
+    Stepper stepper(asset, precise());
+    const StepResult result = settle(stepper, asset, {0, 0, -0.01});
+    // It takes hold where the nodes are when it comes: at rest, up to what the first contact moves them sideways.
+    EXPECT_NEAR(result.force_n[2], kPressedCube_n, 1e-3 * kPressedCube_n);
+    EXPECT_EQ(result.touched_nodes, 49u);
+}
+
+TEST(Plate, without_friction_settles_lower_than_one_that_sticks_and_lets_the_top_spread) {
+    const Asset asset = cube_asset(6, ToolShape::plate, ToolContact::frictionless);
+    Stepper stepper(asset, precise());
+    const StepResult result = settle(stepper, asset, {0, 0, -0.01});
+    EXPECT_EQ(result.touched_nodes, 49u);
+    EXPECT_LT(result.force_n[2], 0.98 * kPressedCube_n);
+    EXPECT_GT(result.force_n[2], 22e3 * 0.1 * 0.1 * 0.1);  // more than a bar that is free everywhere
+    EXPECT_NEAR(result.force_n[0], 0, 1e-9);
+    EXPECT_NEAR(result.force_n[1], 0, 1e-9);
+    double widest = 0;
+    for (const auto node : asset.tools[0].nodes) {
+        EXPECT_NEAR(stepper.positions_m()[node].z(), 0.09, 1e-9);
+        widest = std::max(widest, stepper.positions_m()[node].x());
+    }
+    EXPECT_GT(widest, 0.1005);
+}
+
+TEST(Plate, dragged_sideways_pulls_along_only_where_it_sticks) {
+    for (const ToolContact contact : {ToolContact::sticking, ToolContact::frictionless}) {
+        const Asset asset = cube_asset(4, ToolShape::plate, contact);
+        Stepper stepper(asset, precise());
+        (void)settle(stepper, asset, {0, 0, -0.01}, 50, 50);
+        StepResult result;
+        for (int i = 1; i <= 100; ++i) result = stepper.step(moved(asset, {0.01 * std::min(1.0, i / 50.0), 0, -0.01}), 20e-3);
+        if (contact == ToolContact::sticking) {
+            EXPECT_LT(result.force_n[0], -2);
+        } else {
+            EXPECT_NEAR(result.force_n[0], 0, 1e-9);
+        }
+    }
+}
+
+TEST(Plate, with_edges_touches_only_what_lies_before_its_face) {
+    Asset asset = cube_asset(6, ToolShape::plate, ToolContact::frictionless);
+    asset.tools[0].half_extents_m = {0.02, 0.02};  // 3 x 3 of the 7 x 7 nodes, 1/60 m apart
+    Stepper stepper(asset, precise());
+    StepResult result = settle(stepper, asset, {0, 0, -0.01}, 50, 50);
+    EXPECT_EQ(result.status, kStepOk);
+    EXPECT_EQ(result.touched_nodes, 9u);
+    // Slid sideways, it leaves what it passes and does not snatch the nodes that stand beside it, above its face.
+    double before = result.force_n[2];
+    for (int i = 1; i <= 200; ++i) {
+        result = stepper.step(moved(asset, {1e-4 * i, 0, -0.01}), 1e-3);
+        EXPECT_LT(result.force_n[2], 1.2 * before) << "step " << i;
+    }
+    EXPECT_LT(result.touched_nodes, 9u);
+}
+
+TEST(Plate, turned_upside_down_pushes_up) {
+    // The cube hangs from a ceiling; the plate comes from below, its face up.
+    Asset asset = asset_of(kuhn_cube(4), at_height(0.1));
+    ToolSet tool;
+    tool.name = "lift";
+    tool.contact = ToolContact::sticking;
+    tool.rest_position_m = {0.05, 0.05, 0};
+    tool.rest_orientation_wxyz = {0, 1, 0, 0};
+    tool.nodes = free_nodes(asset, at_height(0));
+    asset.tools = {tool};
+    Stepper stepper(asset, precise());
+    const StepResult result = settle(stepper, asset, {0, 0, 0.01}, 50, 50);
+    EXPECT_EQ(result.touched_nodes, 25u);
+    EXPECT_LT(result.force_n[2], -20);
+}
+
+TEST(Sphere, without_friction_settles_with_its_nodes_on_the_surface) {
+    const Asset asset = cube_asset(8, ToolShape::sphere, ToolContact::frictionless);
+    Stepper stepper(asset, precise());
+    const Vec3 move{0.003, -0.001, -0.012};
+    const StepResult result = settle(stepper, asset, move, 100, 200);
+    EXPECT_GE(result.touched_nodes, 3u);
+    const Pose pose = moved(asset, move);
+    const Vec centre(pose.position_m[0], pose.position_m[1], pose.position_m[2]);
+    std::uint32_t on_surface = 0;
+    for (const auto node : asset.tools[0].nodes) {
+        const double distance = (stepper.positions_m()[node] - centre).norm();
+        EXPECT_GT(distance, asset.tools[0].radius_m - 1e-8);
+        on_surface += distance < asset.tools[0].radius_m + 1e-8 ? 1 : 0;
+    }
+    EXPECT_EQ(on_surface, result.touched_nodes);
+}
+
+TEST(Contact, whose_set_does_not_settle_in_the_passes_it_has_says_so) {
+    const Asset asset = cube_asset(6, ToolShape::sphere, ToolContact::sticking);
+    SimulationConfig config;
+    config.max_contact_passes = 1;
+    Stepper stepper(asset, config);
+    EXPECT_EQ(stepper.step(moved(asset, {0, 0, -0.001}), 1e-3).status, kStepContactCap);
+}
+
+}  // namespace
+}  // namespace knead::test

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "knead/runtime/haptic_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "knead/runtime/scripted_device.h"
+#include "unit/runtime/block_asset.h"
+
+namespace knead::test {
+namespace {
+
+Simulation make_simulation() {
+    auto made = Simulation::create(cube_asset(3, ToolShape::plate, ToolContact::sticking));
+    EXPECT_TRUE(made.ok());
+    return std::move(made).value();
+}
+
+PressScript press_by(double depth_m) {
+    PressScript script;
+    script.start.position_m = {0.05, 0.05, 0.1};
+    script.travel_m = {0, 0, -depth_m};
+    script.wait_s = 0.01;
+    script.press_s = 0.05;
+    script.hold_s = 0.02;
+    script.release_s = 0.05;
+    script.rest_s = 0.02;
+    return script;
+}
+
+HapticLoop make_loop(Device& device, Simulation& simulation, const HapticConfig& config) {
+    auto loop = HapticLoop::create(device, simulation, config);
+    EXPECT_TRUE(loop.ok());
+    return std::move(loop).value();
+}
+
+TEST(PressSamples, wait_ramp_hold_come_back_and_rest) {
+    const std::vector<DeviceState> samples = press_samples(press_by(0.01));
+    ASSERT_EQ(samples.size(), 151u);
+    const auto z = [&](std::size_t i) { return samples[i].pose.position_m[2]; };
+    EXPECT_EQ(z(0), 0.1);
+    EXPECT_EQ(z(9), 0.1);
+    EXPECT_NEAR(z(35), 0.095, 1e-12);
+    EXPECT_NEAR(samples[35].velocity_m_per_s[2], -0.2, 1e-12);
+    EXPECT_NEAR(z(70), 0.09, 1e-12);
+    EXPECT_NEAR(z(105), 0.095, 1e-12);
+    EXPECT_NEAR(samples[105].velocity_m_per_s[2], 0.2, 1e-12);
+    EXPECT_EQ(z(140), 0.1);
+    EXPECT_EQ(samples[140].time_s, 0.14);
+}
+
+TEST(PressSamples, without_a_release_end_at_the_deepest_point) {
+    PressScript script = press_by(0.01);
+    script.release_s = 0;
+    const std::vector<DeviceState> samples = press_samples(script);
+    ASSERT_EQ(samples.size(), 81u);
+    EXPECT_EQ(samples.back().pose.position_m[2], 0.09);
+}
+
+TEST(PressSamples, of_a_bad_script_are_empty) {
+    for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+        PressScript script = press_by(0.01);
+        script.press_s = bad;
+        EXPECT_TRUE(press_samples(script).empty()) << bad;
+    }
+    for (const double bad : {0.0, -1.0, std::nan(""), 1e12}) {
+        PressScript script = press_by(0.01);
+        script.rate_hz = bad;
+        EXPECT_TRUE(press_samples(script).empty()) << bad;
+    }
+}
+
+TEST(ScriptedDevice, replays_its_samples_then_stays_and_records_forces) {
+    std::vector<DeviceState> samples(2);
+    samples[1].buttons = 5;
+    ScriptedDevice device(samples);
+    EXPECT_EQ(device.read().buttons, 0u);
+    EXPECT_FALSE(device.finished());
+    EXPECT_EQ(device.read().buttons, 5u);
+    EXPECT_TRUE(device.finished());
+    EXPECT_EQ(device.read().buttons, 5u);
+    for (int i = 0; i < 3; ++i) device.write({1.0 * i, 0, 0}, {});
+    ASSERT_EQ(device.forces_n().size(), 2u);  // one per sample, no more
+    EXPECT_EQ(device.forces_n()[1][0], 1);
+    device.rewind();
+    EXPECT_TRUE(device.forces_n().empty());
+    EXPECT_EQ(device.read().buttons, 0u);
+}
+
+TEST(HapticLoop, replays_a_script_with_the_same_bits) {
+    Simulation simulation = make_simulation();
+    ScriptedDevice device(press_samples(press_by(0.01)));
+    HapticLoop loop = make_loop(device, simulation, {});
+    std::vector<Vec3> first;
+    for (int run = 0; run < 2; ++run) {
+        device.rewind();
+        simulation.reset();
+        while (!device.finished()) (void)loop.tick(1e-3);
+        if (run == 0) first = device.forces_n();
+    }
+    ASSERT_EQ(first.size(), device.forces_n().size());
+    EXPECT_EQ(std::memcmp(first.data(), device.forces_n().data(), first.size() * sizeof(Vec3)), 0);
+    EXPECT_GT(first[80][2], 1);
+    EXPECT_EQ(first.back(), Vec3{});
+}
+
+TEST(HapticLoop, maps_poses_into_the_scene_and_forces_back) {
+    Simulation simulation = make_simulation();
+    const double half = std::sqrt(0.5);
+    HapticConfig config;
+    config.workspace.scale = 2;
+    config.workspace.rotation_wxyz = {half, half, 0, 0};  // device y is scene z, device z is scene -y
+    config.workspace.offset_m = {0.05, 0.05, 0.1};
+    config.force_scale = 0.5;
+    config.max_force_n = 1000;
+    DeviceState state;
+    state.pose.position_m = {0.001, -0.002, 0.003};
+    // The tool must keep the scene's orientation: undo the map's turn.
+    state.pose.orientation_wxyz = {half, -half, 0, 0};
+    ScriptedDevice device({state});
+    const HapticTick tick = make_loop(device, simulation, config).tick(1e-3);
+    EXPECT_NEAR(tick.hand.position_m[0], 0.052, 1e-12);
+    EXPECT_NEAR(tick.hand.position_m[1], 0.044, 1e-12);
+    EXPECT_NEAR(tick.hand.position_m[2], 0.096, 1e-12);
+    EXPECT_NEAR(tick.hand.orientation_wxyz[0], 1, 1e-12);
+    ASSERT_GT(std::abs(tick.step.force_n[2]), 1e-3);
+    EXPECT_NEAR(tick.device_force_n[0], 0.5 * tick.step.force_n[0], 1e-9);
+    EXPECT_NEAR(tick.device_force_n[1], 0.5 * tick.step.force_n[2], 1e-9);
+    EXPECT_NEAR(tick.device_force_n[2], -0.5 * tick.step.force_n[1], 1e-9);
+}
+
+TEST(HapticLoop, shortens_a_force_above_the_limit_and_keeps_its_direction) {
+    Simulation simulation = make_simulation();
+    HapticConfig config;
+    config.max_force_n = 2;
+    PressScript script = press_by(0.01);
+    script.travel_m = {0.005, 0.002, -0.01};
+    ScriptedDevice device(press_samples(script));
+    HapticLoop loop = make_loop(device, simulation, config);
+    bool saturated = false;
+    while (!device.finished()) {
+        const HapticTick tick = loop.tick(1e-3);
+        const Vec3& f = tick.device_force_n;
+        const Vec3& scene = tick.step.force_n;
+        const double norm = std::hypot(f[0], f[1], f[2]);
+        const double wanted = std::hypot(scene[0], scene[1], scene[2]);
+        ASSERT_LE(norm, 2 * (1 + 1e-12));
+        ASSERT_EQ((tick.status & kLoopSaturated) != 0, wanted > 2);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            ASSERT_NEAR(f[axis] * wanted, scene[axis] * norm, 1e-9 * wanted * wanted + 1e-12);
+        }
+        saturated = saturated || (tick.status & kLoopSaturated) != 0;
+    }
+    EXPECT_TRUE(saturated);
+}
+
+TEST(HapticLoop, with_a_pose_that_is_not_a_number_writes_zero) {
+    Simulation simulation = make_simulation();
+    DeviceState state;
+    state.pose.position_m = {0.05, 0.05, 0.09};
+    DeviceState broken = state;
+    broken.pose.position_m[1] = std::nan("");
+    ScriptedDevice device({state, broken, state});
+    HapticLoop loop = make_loop(device, simulation, {});
+    (void)loop.tick(1e-3);
+    const HapticTick tick = loop.tick(1e-3);
+    EXPECT_EQ(tick.step.status, kStepBadInput);
+    EXPECT_EQ(tick.device_force_n, Vec3{});
+    EXPECT_EQ(loop.tick(1e-3).step.status, kStepOk);
+}
+
+TEST(HapticLoop, whose_scaled_force_overflows_writes_zero_and_says_so) {
+    Simulation simulation = make_simulation();
+    HapticConfig config;
+    config.force_scale = 1e308;
+    ScriptedDevice device(press_samples(press_by(0.02)));
+    HapticLoop loop = make_loop(device, simulation, config);
+    bool seen = false;
+    while (!device.finished()) {
+        const HapticTick tick = loop.tick(1e-3);
+        const Vec3& f = tick.device_force_n;
+        ASSERT_LE(std::hypot(f[0], f[1], f[2]), config.max_force_n * (1 + 1e-12));
+        seen = seen || (tick.status & kLoopNotFinite) != 0;
+    }
+    EXPECT_TRUE(seen);
+}
+
+TEST(HapticLoop, runs_at_the_pace_it_is_given_and_ends_with_zero_force) {
+    Simulation simulation = make_simulation();
+    PressScript script = press_by(0.01);
+    script.release_s = 0;
+    ScriptedDevice device(press_samples(script));
+    HapticLoop loop = make_loop(device, simulation, {});
+    std::uint64_t observed = 0;
+    const auto start = std::chrono::steady_clock::now();
+    const auto run = loop.run(0.05, 1000, [&](const HapticTick&) { ++observed; });
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    ASSERT_TRUE(run.ok());
+    EXPECT_EQ(run.value().ticks, 50u);
+    EXPECT_EQ(observed, 50u);
+    EXPECT_GE(seconds, 0.049);
+    EXPECT_EQ(device.forces_n().back(), Vec3{});
+    EXPECT_GT(run.value().longest_tick_s, 0);
+}
+
+TEST(HapticLoop, with_bad_numbers_is_refused) {
+    Simulation simulation = make_simulation();
+    ScriptedDevice device({});
+    const auto refused = [&](auto&& change) {
+        HapticConfig config;
+        change(config);
+        const auto loop = HapticLoop::create(device, simulation, config);
+        ASSERT_FALSE(loop.ok());
+        EXPECT_EQ(loop.error().code, ErrorCode::invalid_argument);
+    };
+    refused([](auto& c) { c.max_force_n = 0; });
+    refused([](auto& c) { c.max_force_n = std::nan(""); });
+    refused([](auto& c) { c.force_scale = -1; });
+    refused([](auto& c) { c.workspace.scale = 0; });
+    refused([](auto& c) { c.workspace.rotation_wxyz = {1, 1, 0, 0}; });
+    refused([](auto& c) { c.workspace.offset_m[1] = std::nan(""); });
+    HapticLoop loop = make_loop(device, simulation, {});
+    EXPECT_FALSE(loop.run(1, 10).ok());
+    EXPECT_FALSE(loop.run(1, 5000).ok());
+    EXPECT_FALSE(loop.run(-1, 1000).ok());
+}
+
+}  // namespace
+}  // namespace knead::test

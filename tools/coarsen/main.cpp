@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "coarsen/coarsen.h"
+#include "common/run_tool.h"
+#include "knead/formats/write/write.h"
+
+namespace knead::tools {
+namespace {
+
+constexpr std::size_t kIdsShown = 5;
+
+const std::map<std::string, CoarsenRule> kRules{{"dominant", CoarsenRule::dominant},
+                                                {"volume-average", CoarsenRule::volume_average}};
+
+struct Arguments {
+    std::filesystem::path fine;
+    std::filesystem::path coarse;
+    std::filesystem::path overlap;
+    std::filesystem::path output;
+    std::string rule = "dominant";
+};
+
+void declare(CLI::App& app, Arguments& arguments) {
+    app.add_option("FINE", arguments.fine, "fine mesh with material")->required()->group("Inputs");
+    app.add_option("COARSE", arguments.coarse, "coarse mesh")->required()->group("Inputs");
+    app.add_option("OVERLAP", arguments.overlap, "overlap of the two, from knead-overlap")
+        ->required()
+        ->group("Inputs");
+    app.add_option("-o,--output", arguments.output, "coarse mesh with material; replaced only once complete")
+        ->required()
+        ->type_name("FILE");
+    app.add_option("--rule", arguments.rule, "how a coarse tetrahedron gets its values from the fine ones")
+        ->capture_default_str()
+        ->check(CLI::IsMember(kRules))
+        ->type_name("RULE");
+}
+
+/// The header's hash of an input, noted in the provenance; call before reading the file.
+void note_input(ToolContext& context, const std::filesystem::path& file, const char* role, Provenance& provenance) {
+    context.add_input(file);
+    provenance.inputs.emplace_back(role, value_or_throw(read_header(file)).content_hash);
+}
+
+nlohmann::ordered_json to_json(const std::vector<std::uint32_t>& ids) {
+    const std::span<const std::uint32_t> first(ids.data(), std::min(ids.size(), kIdsShown));
+    return {{"count", ids.size()}, {"first_ids", std::vector<std::uint32_t>(first.begin(), first.end())}};
+}
+
+void warn_about(const ToolContext& context, const std::filesystem::path& mesh, const std::vector<std::uint32_t>& ids,
+                const char* what) {
+    if (ids.empty()) return;
+    const std::span<const std::uint32_t> first(ids.data(), std::min(ids.size(), kIdsShown));
+    context.warn(fmt::format("{}: {} tetrahedra {} (counted from 0: {}{})", mesh.string(), ids.size(), what,
+                             fmt::join(first, ", "), ids.size() > kIdsShown ? ", ..." : ""));
+}
+
+void report(const ToolContext& context, const Arguments& arguments, const CoarsenResult& result,
+            double coarsen_s, double total_s) {
+    const Coverage& coverage = result.coverage;
+    context.tell(fmt::format("{}: {} tetrahedra; {:.4f} % of the coarse and {:.4f} % of the fine volume covered",
+                             arguments.output.string(), result.material.youngs_modulus_pa.size(),
+                             100 * coverage.coarse_share, 100 * coverage.fine_share));
+    warn_about(context, arguments.coarse, coverage.coarse_missing, "miss more than 1 % of their volume");
+    warn_about(context, arguments.fine, coverage.fine_missing, "miss more than 1 % of their volume");
+    warn_about(context, arguments.coarse, coverage.coarse_uncovered,
+               "are not covered at all and take the nearest fine tetrahedron's values");
+    const nlohmann::ordered_json report{{"tetrahedra", result.material.youngs_modulus_pa.size()},
+                                        {"coarse_covered_share", coverage.coarse_share},
+                                        {"fine_covered_share", coverage.fine_share},
+                                        {"coarse_missing_more_than_1_percent", to_json(coverage.coarse_missing)},
+                                        {"fine_missing_more_than_1_percent", to_json(coverage.fine_missing)},
+                                        {"coarse_uncovered", to_json(coverage.coarse_uncovered)},
+                                        {"seconds", {{"coarsen", coarsen_s}, {"total", total_s}}}};
+    context.write_report(report.dump(2) + "\n");
+}
+
+ExitCode run(ToolContext& context, const Arguments& arguments) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto seconds_since = [](std::chrono::steady_clock::time_point moment) {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - moment).count();
+    };
+    require_writable_folder(arguments.output);
+    context.set_output(arguments.output);
+    Provenance provenance = context.provenance({"--rule", arguments.rule});
+    note_input(context, arguments.fine, "fine", provenance);
+    const MaterialObject fine = value_or_throw(read_material(arguments.fine));
+    note_input(context, arguments.coarse, "coarse", provenance);
+    TetMesh coarse = value_or_throw(read_tet_mesh(arguments.coarse));
+    note_input(context, arguments.overlap, "overlap", provenance);
+    const OverlapMatrix overlap = value_or_throw(read_overlap(arguments.overlap));
+
+    const auto coarsen_start = std::chrono::steady_clock::now();
+    CoarsenResult result = [&] {
+        try {
+            return coarsen(fine, coarse, overlap, kRules.at(arguments.rule));
+        } catch (const ToolError& error) {
+            throw ToolError(error.code(), arguments.overlap.string() + ": " + error.what());
+        }
+    }();
+    const double coarsen_s = seconds_since(coarsen_start);
+    // The names of regions and arrays speak of the original's materials; the coarse values come from the fine mesh.
+    coarse.regions = {};
+    coarse.cell_arrays.clear();
+    value_or_throw(write_material(arguments.output, {std::move(coarse), result.material}, provenance));
+    report(context, arguments, result, coarsen_s, seconds_since(start));
+    return ExitCode::done;
+}
+
+}  // namespace
+}  // namespace knead::tools
+
+int main(int argc, char** argv) {
+    using namespace knead::tools;
+    Arguments arguments;
+    const ToolInfo info{.name = "knead-coarsen",
+                        .purpose = "give each coarse tetrahedron its elasticity from the fine ones it overlaps.",
+                        .example = "knead-coarsen fine.hdf coarse.hdf overlap.hdf -o coarse.material.hdf",
+                        .libraries = {}};
+    return run_tool(
+        argc, argv, info, [&](CLI::App& app) { declare(app, arguments); },
+        [&](ToolContext& context) { return run(context, arguments); });
+}

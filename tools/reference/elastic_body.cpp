@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reference/elastic_body.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/error.h"
+
+namespace knead::tools {
+namespace {
+
+// Operations that touch a nodal force one after the other (edges, gradient, stress, sum over the tetrahedra
+// around a node), each with a relative rounding of one epsilon: about this many in a usual mesh.
+constexpr double kRoundedOperations = 64;
+
+void require(const Status& status) {
+    if (!status.ok()) fail_input(status.error().text());
+}
+
+/// Columns: edges from node 0 to nodes 1, 2, 3.
+Eigen::Matrix3d edges(const Tetrahedron& nodes, const Eigen::VectorXd& positions) {
+    Eigen::Matrix3d result;
+    for (int k = 0; k < 3; ++k)
+        result.col(k) = positions.segment<3>(3 * nodes[k + 1]) - positions.segment<3>(3 * nodes[0]);
+    return result;
+}
+
+}  // namespace
+
+ElasticBody::ElasticBody(const TetMesh& mesh, const Material& material) {
+    require(validate(mesh));
+    require(validate(material, mesh.tetrahedra.size()));
+    rest_.resize(3 * static_cast<Eigen::Index>(mesh.nodes_m.size()));
+    for (std::size_t n = 0; n < mesh.nodes_m.size(); ++n)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            rest_[static_cast<Eigen::Index>(3 * n + axis)] = mesh.nodes_m[n][axis];
+    mass_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.nodes_m.size()));
+    elements_.reserve(mesh.tetrahedra.size());
+    const double extent_m = rest_.lpNorm<Eigen::Infinity>();
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+        Element element;
+        element.nodes = mesh.tetrahedra[t];
+        const Eigen::Matrix3d rest_edges = edges(element.nodes, rest_);
+        element.volume_m3 = rest_edges.determinant() / 6;
+        element.shape_gradients.rightCols<3>() = rest_edges.inverse().transpose();
+        element.shape_gradients.col(0) = -element.shape_gradients.rightCols<3>().rowwise().sum();
+        element.lame = lame_parameters(material.youngs_modulus_pa[t], material.poissons_ratio[t]);
+        for (const std::uint32_t node : element.nodes)
+            mass_[node] += element.volume_m3 * material.density_kg_per_m3[t] / 4;
+        // A position is known to epsilon * extent: the strain to that times the shape gradient.
+        const double gradient = element.shape_gradients.norm();
+        const double stiffness_pa = 2 * element.lame.mu_pa + 3 * std::abs(element.lame.lambda_pa);
+        rounding_noise_n_ = std::max(rounding_noise_n_, stiffness_pa * element.volume_m3 * gradient *
+                                                            std::max(1.0, gradient * extent_m));
+        elements_.push_back(element);
+    }
+    rounding_noise_n_ *= kRoundedOperations * std::numeric_limits<double>::epsilon();
+}
+
+CorotationalPoint ElasticBody::evaluate(const Element& element, const Eigen::VectorXd& positions_m) const {
+    const Eigen::Matrix3d deformation_gradient =
+        edges(element.nodes, positions_m) * element.shape_gradients.rightCols<3>().transpose();
+    return {deformation_gradient, element.lame};
+}
+
+double ElasticBody::energy_j(const Eigen::VectorXd& positions_m) const {
+    double sum = 0;
+    for (const Element& element : elements_)
+        sum += element.volume_m3 * evaluate(element, positions_m).energy_density_j_per_m3();
+    return sum;
+}
+
+Eigen::VectorXd ElasticBody::gradient_n(const Eigen::VectorXd& positions_m) const {
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(rest_.size());
+    for (const Element& element : elements_) {
+        const Eigen::Matrix<double, 3, 4> forces =
+            element.volume_m3 * evaluate(element, positions_m).stress_pa() * element.shape_gradients;
+        for (int a = 0; a < 4; ++a) gradient.segment<3>(3 * element.nodes[a]) += forces.col(a);
+    }
+    return gradient;
+}
+
+Matrix12d ElasticBody::stiffness_n_per_m(std::size_t tetrahedron, const Eigen::VectorXd& positions_m,
+                                         Curvature curvature) const {
+    const Element& element = elements_[tetrahedron];
+    Eigen::Matrix<double, 9, 12> gradient_of_positions = Eigen::Matrix<double, 9, 12>::Zero();
+    for (int a = 0; a < 4; ++a)
+        for (int k = 0; k < 3; ++k)
+            for (int i = 0; i < 3; ++i)
+                gradient_of_positions(i + 3 * k, 3 * a + i) = element.shape_gradients(k, a);
+    const Matrix9d tangent = evaluate(element, positions_m).tangent_pa(curvature);
+    return element.volume_m3 * gradient_of_positions.transpose() * tangent * gradient_of_positions;
+}
+
+}  // namespace knead::tools

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reference/free_system.h"
+
+#include <Eigen/CholmodSupport>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <array>
+
+namespace knead::tools {
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+constexpr int kNotFree = -1;
+constexpr int kLowerEntries = 78;  // of a symmetric 12 x 12 matrix
+
+}  // namespace
+
+struct FreeSystem::Impl {
+    const ElasticBody* body;
+    std::vector<bool> is_prescribed;
+    std::vector<int> free_index;                           // [3 nodes] column in the matrix, or kNotFree
+    int free_count = 0;
+    SparseMatrix lower;                                    // lower triangle
+    std::vector<std::array<int, kLowerEntries>> position;  // [tetrahedra] where each entry is added
+    std::vector<int> diagonal_position;                    // [free]
+    Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower> factor;
+
+    void make_pattern();
+    void make_positions();
+    [[nodiscard]] int find(int row, int column) const;
+    [[nodiscard]] std::array<int, 12> columns_of(std::size_t tetrahedron) const;
+};
+
+std::array<int, 12> FreeSystem::Impl::columns_of(std::size_t tetrahedron) const {
+    std::array<int, 12> columns{};
+    const Tetrahedron& nodes = body->nodes_of(tetrahedron);
+    for (std::size_t a = 0; a < 4; ++a)
+        for (std::size_t i = 0; i < 3; ++i) columns[3 * a + i] = free_index[3 * std::size_t{nodes[a]} + i];
+    return columns;
+}
+
+void FreeSystem::Impl::make_pattern() {
+    std::vector<std::vector<int>> rows_of_column(static_cast<std::size_t>(free_count));
+    for (std::size_t t = 0; t < body->tetrahedron_count(); ++t) {
+        const std::array<int, 12> columns = columns_of(t);
+        for (const int row : columns)
+            for (const int column : columns)
+                if (column != kNotFree && row >= column)
+                    rows_of_column[static_cast<std::size_t>(column)].push_back(row);
+    }
+    lower.resize(free_count, free_count);
+    std::vector<int> counts(static_cast<std::size_t>(free_count));
+    for (std::size_t column = 0; column < rows_of_column.size(); ++column) {
+        std::vector<int>& rows = rows_of_column[column];
+        std::sort(rows.begin(), rows.end());
+        rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+        counts[column] = static_cast<int>(rows.size());
+    }
+    lower.reserve(counts);
+    for (int column = 0; column < free_count; ++column)
+        for (const int row : rows_of_column[static_cast<std::size_t>(column)]) lower.insert(row, column) = 0;
+    lower.makeCompressed();
+}
+
+int FreeSystem::Impl::find(int row, int column) const {
+    const int* const first = lower.innerIndexPtr() + lower.outerIndexPtr()[column];
+    const int* const last = lower.innerIndexPtr() + lower.outerIndexPtr()[column + 1];
+    return static_cast<int>(std::lower_bound(first, last, row) - lower.innerIndexPtr());
+}
+
+void FreeSystem::Impl::make_positions() {
+    position.resize(body->tetrahedron_count());
+    for (std::size_t t = 0; t < position.size(); ++t) {
+        const std::array<int, 12> columns = columns_of(t);
+        std::size_t entry = 0;
+        for (std::size_t j = 0; j < 12; ++j)
+            for (std::size_t i = j; i < 12; ++i, ++entry) {
+                const int low = std::min(columns[i], columns[j]);
+                const int high = std::max(columns[i], columns[j]);
+                position[t][entry] = low == kNotFree ? kNotFree : find(high, low);
+            }
+    }
+    diagonal_position.resize(static_cast<std::size_t>(free_count));
+    for (int k = 0; k < free_count; ++k) diagonal_position[static_cast<std::size_t>(k)] = find(k, k);
+}
+
+FreeSystem::FreeSystem(const ElasticBody& body, const std::vector<bool>& is_prescribed)
+    : impl_(std::make_unique<Impl>()) {
+    impl_->body = &body;
+    impl_->is_prescribed = is_prescribed;
+    impl_->free_index.assign(is_prescribed.size(), kNotFree);
+    for (std::size_t k = 0; k < is_prescribed.size(); ++k)
+        if (!is_prescribed[k]) impl_->free_index[k] = impl_->free_count++;
+    if (impl_->free_count == 0) return;
+    impl_->make_pattern();
+    impl_->make_positions();
+    impl_->factor.cholmod().print = 0;  // an indefinite matrix is an answer here, not a message
+    impl_->factor.analyzePattern(impl_->lower);
+}
+
+FreeSystem::FreeSystem(FreeSystem&&) noexcept = default;
+FreeSystem& FreeSystem::operator=(FreeSystem&&) noexcept = default;
+FreeSystem::~FreeSystem() = default;
+
+bool FreeSystem::factorise(const Eigen::VectorXd& positions_m, Curvature curvature,
+                           const Eigen::VectorXd& diagonal_n_per_m) {
+    if (impl_->free_count == 0) return true;
+    double* const values = impl_->lower.valuePtr();
+    std::fill(values, values + impl_->lower.nonZeros(), 0.0);
+    for (std::size_t t = 0; t < impl_->position.size(); ++t) {
+        const Matrix12d stiffness = impl_->body->stiffness_n_per_m(t, positions_m, curvature);
+        std::size_t entry = 0;
+        for (int j = 0; j < 12; ++j)
+            for (int i = j; i < 12; ++i, ++entry)
+                if (const int where = impl_->position[t][entry]; where != kNotFree)
+                    values[where] += stiffness(i, j);
+    }
+    if (diagonal_n_per_m.size() > 0)
+        for (std::size_t k = 0; k < impl_->free_index.size(); ++k)
+            if (const int column = impl_->free_index[k]; column != kNotFree)
+                values[impl_->diagonal_position[static_cast<std::size_t>(column)]] +=
+                    diagonal_n_per_m[static_cast<Eigen::Index>(k)];
+    impl_->factor.factorize(impl_->lower);
+    return impl_->factor.info() == Eigen::Success;
+}
+
+Eigen::VectorXd FreeSystem::solve(const Eigen::VectorXd& rhs) const {
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(rhs.size());
+    if (impl_->free_count == 0) return result;
+    Eigen::VectorXd compact(impl_->free_count);
+    for (std::size_t k = 0; k < impl_->free_index.size(); ++k)
+        if (const int column = impl_->free_index[k]; column != kNotFree)
+            compact[column] = rhs[static_cast<Eigen::Index>(k)];
+    const Eigen::VectorXd solution = impl_->factor.solve(compact);
+    for (std::size_t k = 0; k < impl_->free_index.size(); ++k)
+        if (const int column = impl_->free_index[k]; column != kNotFree)
+            result[static_cast<Eigen::Index>(k)] = solution[column];
+    return result;
+}
+
+const std::vector<bool>& FreeSystem::is_prescribed() const { return impl_->is_prescribed; }
+std::size_t FreeSystem::unknown_count() const { return static_cast<std::size_t>(impl_->free_count); }
+
+}  // namespace knead::tools

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "reference/elastic_body.h"
+
+namespace knead::tools {
+
+/// The linear system of the unknowns that are not prescribed: assembly and direct solution.
+///
+/// Unknown 3 * n + i is axis i of node n. The sparsity pattern and the elimination order (CHOLMOD's symbolic
+/// analysis) are made once and serve every factorisation.
+/// @thread-safety one thread at a time; different objects are independent
+class FreeSystem {
+  public:
+    /// @param is_prescribed [3 nodes] true where the unknown is given
+    FreeSystem(const ElasticBody& body, const std::vector<bool>& is_prescribed);
+    FreeSystem(FreeSystem&&) noexcept;
+    FreeSystem& operator=(FreeSystem&&) noexcept;
+    ~FreeSystem();
+
+    /// Factorises the second derivative at `positions_m`, plus `diagonal_n_per_m` ([3 nodes], or empty).
+    /// @return false when it is not positive definite
+    bool factorise(const Eigen::VectorXd& positions_m, Curvature curvature,
+                   const Eigen::VectorXd& diagonal_n_per_m);
+    /// Solves with the last factor for the free part of `rhs`; zero at the prescribed unknowns.
+    /// @param rhs [3 nodes]
+    [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
+
+    [[nodiscard]] const std::vector<bool>& is_prescribed() const;
+    [[nodiscard]] std::size_t unknown_count() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace knead::tools

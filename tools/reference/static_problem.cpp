@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reference/static_problem.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "common/error.h"
+#include "reference/load_steps.h"
+#include "reference/prescribed_unknowns.h"
+
+namespace knead::tools {
+
+struct StaticProblem::Impl {
+    ElasticBody body;
+    std::optional<FreeSystem> system;  // of the last set of prescribed unknowns
+
+    FreeSystem& system_for(const std::vector<bool>& is_prescribed) {
+        if (!system || system->is_prescribed() != is_prescribed) system.emplace(body, is_prescribed);
+        return *system;
+    }
+};
+
+StaticProblem::StaticProblem(const TetMesh& mesh, const Material& material)
+    : impl_(std::make_unique<Impl>(Impl{ElasticBody(mesh, material), {}})) {}
+StaticProblem::StaticProblem(StaticProblem&&) noexcept = default;
+StaticProblem& StaticProblem::operator=(StaticProblem&&) noexcept = default;
+StaticProblem::~StaticProblem() = default;
+
+StaticSolution StaticProblem::solve(const PrescribedMotion& prescribed, const std::vector<Point>& start_m,
+                                    const NewtonLimits& limits) {
+    const ElasticBody& body = impl_->body;
+    const PrescribedUnknowns unknowns = spread(prescribed, body.rest_positions_m());
+    Eigen::VectorXd positions =
+        start_m.empty() ? body.rest_positions_m() : to_unknowns(start_m, body.node_count(), "start positions");
+    Objective objective;
+    objective.body = &body;
+    return equilibrium(objective, impl_->system_for(unknowns.is_prescribed), prescribed, unknowns.target_m,
+                       limits, positions);
+}
+
+StaticSolution StaticProblem::solve_linear(const PrescribedMotion& prescribed) {
+    const ElasticBody& body = impl_->body;
+    const PrescribedUnknowns unknowns = spread(prescribed, body.rest_positions_m());
+    FreeSystem& system = impl_->system_for(unknowns.is_prescribed);
+    Objective objective;
+    objective.body = &body;
+
+    Eigen::VectorXd positions = body.rest_positions_m();
+    if (!follow_prescribed(objective, system, unknowns.target_m, positions))
+        fail_result(fmt::format("the stiffness matrix is singular: {} free unknowns, {} nodes prescribed (too few "
+                                "to hold the object?)",
+                                system.unknown_count(), prescribed.nodes.size()));
+    const Eigen::VectorXd displacement = positions - body.rest_positions_m();
+    const Eigen::VectorXd holding =
+        stiffness_times(body, body.rest_positions_m(), Curvature::exact, displacement);
+    StaticSolution solution;
+    solution.positions_m = to_points(positions);
+    solution.reactions_n = reactions(prescribed, holding);
+    solution.energy_j = displacement.dot(holding) / 2;
+    solution.iterations = 1;
+    for (Eigen::Index k = 0; k < holding.size(); ++k) {
+        const bool is_prescribed = unknowns.is_prescribed[static_cast<std::size_t>(k)];
+        double& norm = is_prescribed ? solution.force_scale_n : solution.residual_n;
+        norm = std::hypot(norm, holding[k]);
+    }
+    return solution;
+}
+
+}  // namespace knead::tools
