@@ -29,14 +29,15 @@ bool same_element(const Value& a, const Value& b, std::size_t i, const Tolerance
                        a.element_bytes) == 0;
 }
 
-/// "[4, 2]" for a flat index.
+/// " at [4, 2]" for a flat index; nothing for a scalar.
 std::string position_text(const Value& value, std::size_t index) {
+    if (value.extents.empty()) return "";
     std::string text;
     for (std::size_t axis = value.extents.size(); axis-- > 0;) {
         text = std::to_string(index % value.extents[axis]) + (text.empty() ? "" : ", ") + text;
         index /= value.extents[axis];
     }
-    return "[" + text + "]";
+    return " at [" + text + "]";
 }
 
 class Comparison {
@@ -93,7 +94,7 @@ class Comparison {
             if (a.type != ScalarType::text) largest = std::max(largest, std::abs(number_at(a, i) - number_at(b, i)));
         }
         if (count == 0) return;
-        std::string message = std::to_string(count) + " of " + std::to_string(a.count()) + " values differ, first at " +
+        std::string message = std::to_string(count) + " of " + std::to_string(a.count()) + " values differ, first" +
                               position_text(a, first) + ": " + element_text(a, first) + " and " + element_text(b, first);
         if (a.type != ScalarType::text) message += "; largest difference " + number_text(largest);
         add(path, message, count, largest);

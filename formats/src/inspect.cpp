@@ -26,14 +26,12 @@ NodeInfo describe(const std::string& path, const Node& node) {
     return info;
 }
 
-/// Adds what lies below each group to the group's own header.
+/// Adds what lies below each group to the group's own header. Children stand behind their parents.
 void sum_groups(std::vector<NodeInfo>& nodes) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (!nodes[i].is_group) continue;
-        const std::string prefix = nodes[i].path + "/";
-        for (std::size_t k = 0; k < nodes.size(); ++k)
-            if (!nodes[k].is_group && nodes[k].path.compare(0, prefix.size(), prefix) == 0)
-                nodes[i].bytes_on_disk += nodes[k].bytes_on_disk;
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+        const std::string parent = nodes[i].path.substr(0, nodes[i].path.rfind('/'));
+        for (std::size_t k = i; k-- > 0;)
+            if (nodes[k].path == parent) nodes[k].bytes_on_disk += nodes[i].bytes_on_disk;
     }
 }
 

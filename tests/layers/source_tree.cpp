@@ -22,7 +22,8 @@ SourceFile read_source(const fs::path& file, std::string path) {
     std::ifstream stream(file);
     std::string line;
     for (int number = 1; std::getline(stream, line); ++number) {
-        if (number == 1 || (number == 2 && source.licence_line.rfind("#!", 0) == 0)) source.licence_line = line;
+        if (number == 1 || (number == 2 && source.licence_line.rfind("#!", 0) == 0))
+            source.licence_line = line;
         std::smatch match;
         if (std::regex_search(line, match, kInclude))
             source.includes.push_back({number, match[2].str(), match[1].str() == "<"});

@@ -15,7 +15,7 @@ struct SourceFile {
         bool angle = false;  ///< <name> rather than "name"
     };
 
-    std::string path;  ///< from the top of the repository, with '/'
+    std::string path;          ///< from the top of the repository, with '/'
     std::string licence_line;  ///< the first line, or the second one after "#!"
     std::vector<Include> includes;
 };

@@ -20,15 +20,16 @@ struct PressAsset {
 
 /// The paper's press as the runtime wants it: lowest nodes held, highest nodes bonded to a plate.
 ///
-/// Made by hand, without the baking tool: what is compared here is the solvers. Free nodes keep the order of the
-/// mesh, held ones come last; the palette holds every different (E, nu, density) once.
+/// Made by hand, without the baking tool: what is compared here is the solvers. Free nodes keep the order of
+/// the mesh, held ones come last; the palette holds every different (E, nu, density) once.
 inline PressAsset press_asset(const TetMesh& mesh, const Material& material, const tools::PlatePress& press) {
     PressAsset result;
     Asset& asset = result.asset;
     asset.name = "press";
     asset.level = "fine";
     std::vector<bool> is_held(mesh.nodes_m.size());
-    for (const std::uint32_t node : press.held_nodes) is_held[node] = true;
+    for (const std::uint32_t node : press.held_nodes)
+        is_held[node] = true;
     std::vector<std::uint32_t> asset_node(mesh.nodes_m.size());
     for (const bool held : {false, true}) {
         for (std::uint32_t n = 0; n < mesh.nodes_m.size(); ++n) {
@@ -42,7 +43,8 @@ inline PressAsset press_asset(const TetMesh& mesh, const Material& material, con
     std::map<std::tuple<double, double, double>, std::uint32_t> palette;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
         Tetrahedron nodes = mesh.tetrahedra[t];
-        for (std::uint32_t& node : nodes) node = asset_node[node];
+        for (std::uint32_t& node : nodes)
+            node = asset_node[node];
         asset.tetrahedra.push_back(nodes);
         const PaletteEntry entry{material.youngs_modulus_pa[t], material.poissons_ratio[t],
                                  material.density_kg_per_m3[t]};
@@ -57,7 +59,8 @@ inline PressAsset press_asset(const TetMesh& mesh, const Material& material, con
     plate.shape = ToolShape::plate;
     plate.contact = ToolContact::bonded;
     plate.rest_position_m = mesh.nodes_m[press.plate_nodes.front()];
-    for (const std::uint32_t node : press.plate_nodes) plate.nodes.push_back(asset_node[node]);
+    for (const std::uint32_t node : press.plate_nodes)
+        plate.nodes.push_back(asset_node[node]);
     asset.tools.push_back(plate);
     return result;
 }

@@ -52,8 +52,10 @@ struct Spread {
 
 Spread spread_of(const std::array<double, kSeeds>& values) {
     Spread spread;
-    for (const double value : values) spread.mean += value / kSeeds;
-    for (const double value : values) spread.deviation += (value - spread.mean) * (value - spread.mean);
+    for (const double value : values)
+        spread.mean += value / kSeeds;
+    for (const double value : values)
+        spread.deviation += (value - spread.mean) * (value - spread.mean);
     spread.deviation = std::sqrt(spread.deviation / (kSeeds - 1));
     spread.lowest = *std::min_element(values.begin(), values.end());
     spread.highest = *std::max_element(values.begin(), values.end());
@@ -83,20 +85,19 @@ TEST_P(ScenarioReference, Press_of_five_seeds_gives_the_published_force_and_homo
     const TetMesh mesh = test::kuhn_cube(kCells);
     std::array<double, kSeeds> force_n{};
     std::array<double, kSeeds> homogenised_percent{};
-    // With one Poisson's ratio the force of a homogeneous body is proportional to its elasticity; the tests of
-    // plate_press show it, so one known press serves all homogenised bodies.
+    // With one Poisson's ratio the force of a homogeneous body is proportional to its elasticity; the tests
+    // of plate_press show it, so one known press serves all homogenised bodies.
     tbb::parallel_for(std::size_t{0}, kSeeds, [&](std::size_t k) {
         const Material material =
             scenario_material(mesh, row.scenario, k + 1, kPoissonsRatio, kDensityKgPerM3);
         force_n[k] = press_force_n(mesh, material);
-        const double homogenised_n =
-            kHomogeneousN * mean_youngs_modulus_pa(mesh, material) / kHomogeneousPa;
+        const double homogenised_n = kHomogeneousN * mean_youngs_modulus_pa(mesh, material) / kHomogeneousPa;
         homogenised_percent[k] = 100 * (homogenised_n / force_n[k] - 1);
     });
     const Spread force = spread_of(force_n);
     const Spread homogenised = spread_of(homogenised_percent);
-    std::printf("| %d | %.2f +- %.2f (%.2f to %.2f) | %.2f | %+.1f +- %.1f | %.1f |\n", row.scenario, force.mean,
-                force.deviation, force.lowest, force.highest, row.paper_force_n, homogenised.mean,
+    std::printf("| %d | %.2f +- %.2f (%.2f to %.2f) | %.2f | %+.1f +- %.1f | %.1f |\n", row.scenario,
+                force.mean, force.deviation, force.lowest, force.highest, row.paper_force_n, homogenised.mean,
                 homogenised.deviation, row.paper_homogenised_percent);
     EXPECT_NEAR(force.mean, row.force_n, kForceTolerance * row.force_n);
     EXPECT_NEAR(homogenised.mean, row.homogenised_percent, kHomogenisedTolerancePoints);

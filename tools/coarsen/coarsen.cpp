@@ -42,7 +42,7 @@ void require_not_exceeded(const char* which, const std::vector<double>& volume_m
         if (++count <= 3) ids += (ids.empty() ? "" : ", ") + std::to_string(i);
     }
     if (count > 0)
-        fail_input("the overlap is of other meshes: it gives " + std::to_string(count) + " of " +
+        fail_input("the overlap is of other meshes, or a mesh overlaps itself: it gives " + std::to_string(count) + " of " +
                    std::to_string(volume_m3.size()) + " " + which +
                    " tetrahedra more volume than they have (counted from 0: " + ids +
                    (count > 3 ? ", ...)" : ")"));

@@ -63,6 +63,18 @@ std::vector<int> flat_edges(int volume, double thickness) {
     return flat;
 }
 
+void add_slab(const OutlineSlab& slab) {
+    namespace occ = gmsh::model::occ;
+    gmsh::vectorpair made;
+    occ::extrude({{2, add_face(slab)}}, 0, 0, mm(slab.thickness_m), made);
+    if (slab.round_m == 0) return;
+    for (const auto& [dim, tag] : gmsh::vectorpair(made)) {
+        if (dim != 3) continue;
+        gmsh::vectorpair rounded;
+        occ::fillet({tag}, flat_edges(tag, mm(slab.thickness_m)), {mm(slab.round_m)}, rounded);
+    }
+}
+
 }  // namespace
 
 GeneratedMesh mesh_box(const std::array<double, 3>& size_m, const MeshSize& size) {
@@ -93,17 +105,12 @@ GeneratedMesh mesh_outline(const OutlineSlab& slab, const MeshSize& size) {
     require_length(slab.thickness_m, "the thickness");
     if (!std::isfinite(slab.round_m) || slab.round_m < 0 || 2 * slab.round_m >= slab.thickness_m)
         fail_usage("the radius of the rounded edges must be 0 or more and less than half of the thickness");
-    return mesh_solid(size, [&] {
-        namespace occ = gmsh::model::occ;
-        gmsh::vectorpair made;
-        occ::extrude({{2, add_face(slab)}}, 0, 0, mm(slab.thickness_m), made);
-        if (slab.round_m == 0) return;
-        for (const auto& [dim, tag] : gmsh::vectorpair(made)) {
-            if (dim != 3) continue;
-            gmsh::vectorpair rounded;
-            occ::fillet({tag}, flat_edges(tag, mm(slab.thickness_m)), {mm(slab.round_m)}, rounded);
-        }
-    });
+    try {
+        return mesh_solid(size, [&] { add_slab(slab); });
+    } catch (const ToolError& error) {
+        if (slab.round_m == 0 || error.code() != ExitCode::no_valid_result) throw;
+        fail_result(std::string(error.what()) + "; rounded edges at sharp corners often fail: try without --round");
+    }
 }
 
 }  // namespace knead::tools

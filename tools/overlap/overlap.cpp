@@ -84,8 +84,8 @@ OverlapMatrix compress(std::vector<Row> rows, std::size_t fine_count, double uni
 
 OverlapMatrix overlap_volumes(const TetMesh& fine, const TetMesh& coarse, const OverlapOptions& options,
                               OverlapStatistics* statistics) {
-    if (!(options.drop_below >= kSmallestDropBelow && options.drop_below < 1))
-        fail_usage("--drop-below must be at least 1e-12 and below 1");
+    if (!(options.drop_below >= 0 && options.drop_below < 1))
+        fail_usage("--drop-below must be at least 0 and below 1");
     // A power of two changes no digit, and keeps cubes of very small or large coordinates inside the range.
     const int exponent = std::max(exponent_of(fine), exponent_of(coarse));
     const auto prepared_fine = prepare_all(fine, exponent, options.threads);

@@ -10,13 +10,10 @@
 
 namespace knead::tools {
 
-/// Smallest value of OverlapOptions::drop_below: below it a shared volume cannot be told from a touch.
-inline constexpr double kSmallestDropBelow = kSharedVolumeAccuracy;
-
 struct OverlapOptions {
-    /// Shared volumes below this share of the smaller tetrahedron are not stored: the two only touch.
-    /// In [kSmallestDropBelow, 1).
-    double drop_below = kSmallestDropBelow;
+    /// Shared volumes below this share of the smaller tetrahedron are not stored. In [0, 1). The default is
+    /// so small that rows and columns, which miss up to a few dozen such pairs, still sum to 1e-12.
+    double drop_below = 1e-14;
     unsigned threads = 1;  ///< >= 1; the result does not depend on it
 };
 

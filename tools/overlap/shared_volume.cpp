@@ -59,14 +59,16 @@ Cut<Real> find_cuts(const Piece<Real>& values, const std::array<double, 4>& erro
     return cut;
 }
 
-/// Share of a inside b with certainty, or nothing.
+/// Share of a inside b with certainty, or nothing. A share that could be no more than the doubt about it is
+/// not certain: the two may only touch.
 template <class Real>
-std::optional<double> certain_share(const Corners& a, const Faces<Real>& b,
-                                    const std::array<double, 4>& errors) {
+std::optional<double> certain_share(const Corners& a, const Faces<Real>& b, const std::array<double, 4>& errors) {
     const Cut<Real> cut = find_cuts(plane_values(a, b), errors);
     if (cut.doubt > kDoubtAllowed) return std::nullopt;
     if (cut.outside) return 0.0;
-    return static_cast<double>(share_inside(cut.piece, 0, cut.count));
+    const double share = static_cast<double>(share_inside(cut.piece, 0, cut.count));
+    if (share > 0 && share <= cut.doubt) return std::nullopt;
+    return share;
 }
 
 /// True if a face plane of a has all of b outside, with certainty.

@@ -30,6 +30,7 @@ struct ArithmeticCounts {
 /// bound is carried to the volume: between two parallel planes a distance d apart lies at most 3 d / w of a
 /// tetrahedron of width w. Where that bound is not small enough the pair is done again in long double, and
 /// where that is not enough in exact rational arithmetic (CGAL).
+/// @return 0, or a volume that is certainly shared: pairs that only touch share 0
 [[nodiscard]] double shared_volume(const PreparedTet& a, const PreparedTet& b, ArithmeticCounts& counts);
 
 }  // namespace knead::tools

@@ -18,7 +18,9 @@ constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 
-Vector9d flattened(const Eigen::Matrix3d& matrix) { return Eigen::Map<const Vector9d>(matrix.data()); }
+Vector9d flattened(const Eigen::Matrix3d& matrix) {
+    return Eigen::Map<const Vector9d>(matrix.data());
+}
 
 }  // namespace
 

@@ -44,10 +44,10 @@ class CorotationalPoint {
   private:
     Eigen::Matrix3d deformation_gradient_;
     LameParameters lame_;
-    Eigen::Matrix3d left_, right_;     // F = left_ diag(singular_) right_^T, both rotations
-    Eigen::Vector3d singular_;         // decreasing; the last carries the sign of det F
+    Eigen::Matrix3d left_, right_;  // F = left_ diag(singular_) right_^T, both rotations
+    Eigen::Vector3d singular_;      // decreasing; the last carries the sign of det F
     Eigen::Matrix3d rotation_;
-    double dilation_;                  // tr(R^T F - I)
+    double dilation_;  // tr(R^T F - I)
 };
 
 }  // namespace knead::tools

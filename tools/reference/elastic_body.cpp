@@ -77,7 +77,8 @@ Eigen::VectorXd ElasticBody::gradient_n(const Eigen::VectorXd& positions_m) cons
     for (const Element& element : elements_) {
         const Eigen::Matrix<double, 3, 4> forces =
             element.volume_m3 * evaluate(element, positions_m).stress_pa() * element.shape_gradients;
-        for (int a = 0; a < 4; ++a) gradient.segment<3>(3 * element.nodes[a]) += forces.col(a);
+        for (int a = 0; a < 4; ++a)
+            gradient.segment<3>(3 * element.nodes[a]) += forces.col(a);
     }
     return gradient;
 }

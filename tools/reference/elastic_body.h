@@ -47,7 +47,8 @@ class ElasticBody {
         double volume_m3;
         LameParameters lame;
     };
-    [[nodiscard]] CorotationalPoint evaluate(const Element& element, const Eigen::VectorXd& positions_m) const;
+    [[nodiscard]] CorotationalPoint evaluate(const Element& element,
+                                             const Eigen::VectorXd& positions_m) const;
 
     Eigen::VectorXd rest_, mass_;
     std::vector<Element> elements_;

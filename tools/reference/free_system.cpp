@@ -18,7 +18,7 @@ constexpr int kLowerEntries = 78;  // of a symmetric 12 x 12 matrix
 struct FreeSystem::Impl {
     const ElasticBody* body;
     std::vector<bool> is_prescribed;
-    std::vector<int> free_index;                           // [3 nodes] column in the matrix, or kNotFree
+    std::vector<int> free_index;  // [3 nodes] column in the matrix, or kNotFree
     int free_count = 0;
     SparseMatrix lower;                                    // lower triangle
     std::vector<std::array<int, kLowerEntries>> position;  // [tetrahedra] where each entry is added
@@ -35,7 +35,8 @@ std::array<int, 12> FreeSystem::Impl::columns_of(std::size_t tetrahedron) const 
     std::array<int, 12> columns{};
     const Tetrahedron& nodes = body->nodes_of(tetrahedron);
     for (std::size_t a = 0; a < 4; ++a)
-        for (std::size_t i = 0; i < 3; ++i) columns[3 * a + i] = free_index[3 * std::size_t{nodes[a]} + i];
+        for (std::size_t i = 0; i < 3; ++i)
+            columns[3 * a + i] = free_index[3 * std::size_t{nodes[a]} + i];
     return columns;
 }
 
@@ -58,7 +59,8 @@ void FreeSystem::Impl::make_pattern() {
     }
     lower.reserve(counts);
     for (int column = 0; column < free_count; ++column)
-        for (const int row : rows_of_column[static_cast<std::size_t>(column)]) lower.insert(row, column) = 0;
+        for (const int row : rows_of_column[static_cast<std::size_t>(column)])
+            lower.insert(row, column) = 0;
     lower.makeCompressed();
 }
 
@@ -81,7 +83,8 @@ void FreeSystem::Impl::make_positions() {
             }
     }
     diagonal_position.resize(static_cast<std::size_t>(free_count));
-    for (int k = 0; k < free_count; ++k) diagonal_position[static_cast<std::size_t>(k)] = find(k, k);
+    for (int k = 0; k < free_count; ++k)
+        diagonal_position[static_cast<std::size_t>(k)] = find(k, k);
 }
 
 FreeSystem::FreeSystem(const ElasticBody& body, const std::vector<bool>& is_prescribed)
@@ -138,7 +141,11 @@ Eigen::VectorXd FreeSystem::solve(const Eigen::VectorXd& rhs) const {
     return result;
 }
 
-const std::vector<bool>& FreeSystem::is_prescribed() const { return impl_->is_prescribed; }
-std::size_t FreeSystem::unknown_count() const { return static_cast<std::size_t>(impl_->free_count); }
+const std::vector<bool>& FreeSystem::is_prescribed() const {
+    return impl_->is_prescribed;
+}
+std::size_t FreeSystem::unknown_count() const {
+    return static_cast<std::size_t>(impl_->free_count);
+}
 
 }  // namespace knead::tools

@@ -20,7 +20,8 @@ struct ImplicitEuler::Impl {
     std::optional<FreeSystem> system;  // of the last set of prescribed unknowns
 
     /// The step as a minimisation: all terms but the elastic one are springs to where they alone would lead.
-    [[nodiscard]] Objective objective(const Eigen::VectorXd& x0, const Eigen::VectorXd& v0, double dt_s) const {
+    [[nodiscard]] Objective objective(const Eigen::VectorXd& x0, const Eigen::VectorXd& v0,
+                                      double dt_s) const {
         const double rate = 1 / (dt_s * dt_s) + damping_per_s / dt_s;
         Objective result;
         result.body = &body;
@@ -34,7 +35,8 @@ namespace {
 
 Eigen::VectorXd per_axis(const Eigen::VectorXd& per_node) {
     Eigen::VectorXd result(3 * per_node.size());
-    for (Eigen::Index k = 0; k < result.size(); ++k) result[k] = per_node[k / 3];
+    for (Eigen::Index k = 0; k < result.size(); ++k)
+        result[k] = per_node[k / 3];
     return result;
 }
 
@@ -61,7 +63,8 @@ MotionState ImplicitEuler::rest() const {
 
 MotionStep ImplicitEuler::step(const MotionState& from, const PrescribedMotion& prescribed, double dt_s,
                                const NewtonLimits& limits) {
-    if (!std::isfinite(dt_s) || dt_s <= 0) fail_input(fmt::format("time step is {} s, not finite and > 0", dt_s));
+    if (!std::isfinite(dt_s) || dt_s <= 0)
+        fail_input(fmt::format("time step is {} s, not finite and > 0", dt_s));
     const ElasticBody& body = impl_->body;
     const PrescribedUnknowns unknowns = spread(prescribed, body.rest_positions_m());
     const Eigen::VectorXd x0 = to_unknowns(from.positions_m, body.node_count(), "positions");
@@ -72,7 +75,8 @@ MotionStep ImplicitEuler::step(const MotionState& from, const PrescribedMotion& 
 
     Eigen::VectorXd positions = x0;
     MotionStep result;
-    result.solution = equilibrium(objective, *impl_->system, prescribed, unknowns.target_m, limits, positions);
+    result.solution =
+        equilibrium(objective, *impl_->system, prescribed, unknowns.target_m, limits, positions);
     result.state.positions_m = to_points(positions);
     result.state.velocities_m_per_s = to_points((positions - x0) / dt_s);
     return result;

@@ -30,9 +30,10 @@ struct MotionStep {
 
 /// Converged implicit Euler steps of the object of StaticProblem, mass lumped at the nodes.
 ///
-/// One step solves, to the limits given: M ((x1 - x0) / dt - v0) / dt = -dE/dx(x1) + M g - d M (x1 - x0) / dt,
-/// with v1 = (x1 - x0) / dt; prescribed nodes are at rest + displacement at the end of the step. A reaction is
-/// what the object exerts on the holder: -(dE/dx + the inertia and damping terms - M g) of that node.
+/// One step solves, to the limits given: M ((x1 - x0) / dt - v0) / dt = -dE/dx(x1) + M g - d M (x1 - x0) /
+/// dt, with v1 = (x1 - x0) / dt; prescribed nodes are at rest + displacement at the end of the step. A
+/// reaction is what the object exerts on the holder: -(dE/dx + the inertia and damping terms - M g) of that
+/// node.
 /// @thread-safety one thread at a time; different objects are independent
 class ImplicitEuler {
   public:

@@ -43,11 +43,12 @@ StaticSolution equilibrium(const Objective& objective, FreeSystem& system, const
         }
         step /= 2;
         if (step * limits.max_load_steps < 1)
-            fail_result(fmt::format("no equilibrium found: {} linear solves, {:.4g} of the motion done in {} load "
-                                    "steps, then a residual of {:.3g} N where {:.3g} N is wanted; {} free "
-                                    "unknowns, {} nodes prescribed (too few to hold the object?)",
-                                    solution.iterations, done, solution.load_steps, outcome.residual_n,
-                                    outcome.residual_target_n, system.unknown_count(), motion.nodes.size()));
+            fail_result(
+                fmt::format("no equilibrium found: {} linear solves, {:.4g} of the motion done in {} load "
+                            "steps, then a residual of {:.3g} N where {:.3g} N is wanted; {} free "
+                            "unknowns, {} nodes prescribed (too few to hold the object?)",
+                            solution.iterations, done, solution.load_steps, outcome.residual_n,
+                            outcome.residual_target_n, system.unknown_count(), motion.nodes.size()));
     }
     solution.positions_m = to_points(positions_m);
     solution.reactions_n = reactions(motion, objective.gradient_n(positions_m));

@@ -89,18 +89,19 @@ Eigen::VectorXd stiffness_times(const ElasticBody& body, const Eigen::VectorXd& 
     Eigen::VectorXd product = Eigen::VectorXd::Zero(direction.size());
     for (std::size_t t = 0; t < body.tetrahedron_count(); ++t) {
         Eigen::Matrix<double, 12, 1> local;
-        for (int a = 0; a < 4; ++a) local.segment<3>(3 * a) = direction.segment<3>(3 * body.nodes_of(t)[a]);
+        for (int a = 0; a < 4; ++a)
+            local.segment<3>(3 * a) = direction.segment<3>(3 * body.nodes_of(t)[a]);
         if (local.isZero(0)) continue;
         local = body.stiffness_n_per_m(t, positions_m, curvature) * local.eval();
-        for (int a = 0; a < 4; ++a) product.segment<3>(3 * body.nodes_of(t)[a]) += local.segment<3>(3 * a);
+        for (int a = 0; a < 4; ++a)
+            product.segment<3>(3 * body.nodes_of(t)[a]) += local.segment<3>(3 * a);
     }
     return product;
 }
 
 double Objective::value_j(const Eigen::VectorXd& positions_m) const {
     double value = body->energy_j(positions_m);
-    if (weight_n_per_m.size() > 0)
-        value += weight_n_per_m.dot((positions_m - anchor_m).cwiseAbs2()) / 2;
+    if (weight_n_per_m.size() > 0) value += weight_n_per_m.dot((positions_m - anchor_m).cwiseAbs2()) / 2;
     return value;
 }
 
@@ -113,8 +114,8 @@ Eigen::VectorXd Objective::gradient_n(const Eigen::VectorXd& positions_m) const 
 double Objective::rounding_noise_n() const {
     double noise = body->rounding_noise_n();
     if (weight_n_per_m.size() > 0)
-        noise = std::max(noise, kEpsilon * weight_n_per_m.lpNorm<Eigen::Infinity>() *
-                                    anchor_m.lpNorm<Eigen::Infinity>());
+        noise = std::max(
+            noise, kEpsilon * weight_n_per_m.lpNorm<Eigen::Infinity>() * anchor_m.lpNorm<Eigen::Infinity>());
     return noise;
 }
 

@@ -30,9 +30,9 @@ struct Objective {
 /// How a minimisation ended.
 struct NewtonOutcome {
     bool converged = false;
-    int iterations = 0;          ///< linear solves
-    double residual_n = 0;       ///< Euclidean norm of the gradient over the free unknowns
-    double force_scale_n = 0;    ///< what the residual is compared with: see minimise()
+    int iterations = 0;        ///< linear solves
+    double residual_n = 0;     ///< Euclidean norm of the gradient over the free unknowns
+    double force_scale_n = 0;  ///< what the residual is compared with: see minimise()
     double residual_target_n = 0;
 };
 
@@ -45,8 +45,8 @@ struct NewtonOutcome {
 
 /// Newton's method with a backtracking line search on the objective.
 ///
-/// Exact second derivative when it is positive definite, else the per-element projection of it. Converged when
-/// the residual is at most `relative_residual` times the force scale (the larger of the reactions at the
+/// Exact second derivative when it is positive definite, else the per-element projection of it. Converged
+/// when the residual is at most `relative_residual` times the force scale (the larger of the reactions at the
 /// prescribed unknowns and the weights' forces), or has reached the rounding noise of the forces.
 [[nodiscard]] NewtonOutcome minimise(const Objective& objective, FreeSystem& system, double relative_residual,
                                      int max_iterations, Eigen::VectorXd& positions_m);

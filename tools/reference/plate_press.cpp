@@ -57,7 +57,8 @@ PlatePress plate_press(const TetMesh& mesh, double strain, PlateSlip slip) {
 Point force_on_plate_n(const PlatePress& press, const StaticSolution& solution) {
     Point force{0, 0, 0};
     for (std::size_t k = press.held_nodes.size(); k < solution.reactions_n.size(); ++k)
-        for (std::size_t axis = 0; axis < 3; ++axis) force[axis] += solution.reactions_n[k][axis];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            force[axis] += solution.reactions_n[k][axis];
     return force;
 }
 

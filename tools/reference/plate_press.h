@@ -16,11 +16,11 @@ enum class PlateSlip : std::uint8_t {
 
 /// The paper's press of a box that stands along z: lowest nodes held, highest nodes moved down.
 struct PlatePress {
-    PrescribedMotion motion;          ///< held nodes first, then the plate's
+    PrescribedMotion motion;  ///< held nodes first, then the plate's
     std::vector<std::uint32_t> held_nodes;
     std::vector<std::uint32_t> plate_nodes;
     double height_m = 0;
-    double area_m2 = 0;               ///< of the box's cross-section: extent along x times extent along y
+    double area_m2 = 0;  ///< of the box's cross-section: extent along x times extent along y
 };
 
 /// Nodes within 1e-9 of the box's height of its lowest and highest z count as held and as touched.

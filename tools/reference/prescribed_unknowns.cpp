@@ -12,11 +12,11 @@ namespace {
 
 void check_sizes(const PrescribedMotion& motion) {
     if (motion.displacement_m.size() != motion.nodes.size())
-        fail_input(fmt::format("prescribed motion: {} displacements for {} nodes", motion.displacement_m.size(),
-                               motion.nodes.size()));
+        fail_input(fmt::format("prescribed motion: {} displacements for {} nodes",
+                               motion.displacement_m.size(), motion.nodes.size()));
     if (!motion.axes.empty() && motion.axes.size() != motion.nodes.size())
-        fail_input(fmt::format("prescribed motion: {} axes for {} nodes", motion.axes.size(),
-                               motion.nodes.size()));
+        fail_input(
+            fmt::format("prescribed motion: {} axes for {} nodes", motion.axes.size(), motion.nodes.size()));
 }
 
 }  // namespace
@@ -28,7 +28,8 @@ PrescribedUnknowns spread(const PrescribedMotion& motion, const Eigen::VectorXd&
         const std::size_t node = motion.nodes[k];
         const unsigned axes = motion.axes.empty() ? unsigned{kAllAxes} : unsigned{motion.axes[k]};
         if (3 * node >= result.is_prescribed.size())
-            fail_input(fmt::format("prescribed motion: node {} of {} does not exist", node, rest_m.size() / 3));
+            fail_input(
+                fmt::format("prescribed motion: node {} of {} does not exist", node, rest_m.size() / 3));
         if (axes == 0 || axes > kAllAxes)
             fail_input(fmt::format("prescribed motion: node {} has axes {}, not 1 to 7", node, axes));
         for (std::size_t axis = 0; axis < 3; ++axis) {

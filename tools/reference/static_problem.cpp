@@ -32,8 +32,8 @@ StaticSolution StaticProblem::solve(const PrescribedMotion& prescribed, const st
                                     const NewtonLimits& limits) {
     const ElasticBody& body = impl_->body;
     const PrescribedUnknowns unknowns = spread(prescribed, body.rest_positions_m());
-    Eigen::VectorXd positions =
-        start_m.empty() ? body.rest_positions_m() : to_unknowns(start_m, body.node_count(), "start positions");
+    Eigen::VectorXd positions = start_m.empty() ? body.rest_positions_m()
+                                                : to_unknowns(start_m, body.node_count(), "start positions");
     Objective objective;
     objective.body = &body;
     return equilibrium(objective, impl_->system_for(unknowns.is_prescribed), prescribed, unknowns.target_m,
@@ -49,9 +49,10 @@ StaticSolution StaticProblem::solve_linear(const PrescribedMotion& prescribed) {
 
     Eigen::VectorXd positions = body.rest_positions_m();
     if (!follow_prescribed(objective, system, unknowns.target_m, positions))
-        fail_result(fmt::format("the stiffness matrix is singular: {} free unknowns, {} nodes prescribed (too few "
-                                "to hold the object?)",
-                                system.unknown_count(), prescribed.nodes.size()));
+        fail_result(
+            fmt::format("the stiffness matrix is singular: {} free unknowns, {} nodes prescribed (too few "
+                        "to hold the object?)",
+                        system.unknown_count(), prescribed.nodes.size()));
     const Eigen::VectorXd displacement = positions - body.rest_positions_m();
     const Eigen::VectorXd holding =
         stiffness_times(body, body.rest_positions_m(), Curvature::exact, displacement);

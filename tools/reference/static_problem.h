@@ -29,21 +29,22 @@ struct StaticSolution {
     std::vector<Point> positions_m;  ///< [mesh nodes]
     /// [prescribed nodes] force with which the object pushes on whatever holds the node, newtons.
     std::vector<Point> reactions_n;
-    double energy_j = 0;             ///< elastic energy
-    int iterations = 0;              ///< linear solves, those of the load steps included
-    int load_steps = 1;              ///< 1: the whole motion in one go
-    double residual_n = 0;           ///< Euclidean norm of the unbalanced forces
-    double force_scale_n = 0;        ///< Euclidean norm of the reactions
+    double energy_j = 0;       ///< elastic energy
+    int iterations = 0;        ///< linear solves, those of the load steps included
+    int load_steps = 1;        ///< 1: the whole motion in one go
+    double residual_n = 0;     ///< Euclidean norm of the unbalanced forces
+    double force_scale_n = 0;  ///< Euclidean norm of the reactions
 };
 
 /// When a solve is good enough and when it is given up.
 struct NewtonLimits {
-    double relative_residual = 1e-10;  ///< residual over force scale; rounding noise of the forces is the floor
-    int max_iterations = 60;           ///< of one load step
+    double relative_residual =
+        1e-10;                ///< residual over force scale; rounding noise of the forces is the floor
+    int max_iterations = 60;  ///< of one load step
     /// Equal parts the motion is cut into at least, >= 1. A body crushed by about 30 % or more has several
     /// equilibria: one go may land on another than a slow press comes to; more parts follow the slow press.
     int load_steps = 1;
-    int max_load_steps = 1024;         ///< the smallest load step is one over this
+    int max_load_steps = 1024;  ///< the smallest load step is one over this
 };
 
 /// A heterogeneous soft object at rest, asked for its equilibria: the oracle of tests and evaluation.
@@ -51,7 +52,8 @@ struct NewtonLimits {
 /// Corotational linear tetrahedra in double precision, converged Newton with a line search on the energy,
 /// direct sparse solver; the motion is cut into load steps when Newton fails on the whole. Shares no kernel
 /// with the runtime. Deterministic, single-threaded per solve.
-/// @thread-safety one thread at a time (the elimination order of the last set of prescribed unknowns is kept);
+/// @thread-safety one thread at a time (the elimination order of the last set of prescribed unknowns is
+/// kept);
 ///     different objects are independent
 /// Source: paper section 3.1; evaluation.md of the design, "Reference"
 class StaticProblem {
@@ -64,9 +66,11 @@ class StaticProblem {
 
     /// The equilibrium under `prescribed`, reached from the rest state or from `start_m`.
     /// @param start_m positions to start from ([mesh nodes], finite), or empty: the rest state
-    /// @throws ToolError(bad_input) for a bad motion or start; ToolError(no_valid_result), with the residual and
+    /// @throws ToolError(bad_input) for a bad motion or start; ToolError(no_valid_result), with the residual
+    /// and
     ///     the iterations, when no equilibrium is found or the object is not held
-    [[nodiscard]] StaticSolution solve(const PrescribedMotion& prescribed, const std::vector<Point>& start_m = {},
+    [[nodiscard]] StaticSolution solve(const PrescribedMotion& prescribed,
+                                       const std::vector<Point>& start_m = {},
                                        const NewtonLimits& limits = {});
 
     /// The same for small displacements: one linear solve on the rest state.

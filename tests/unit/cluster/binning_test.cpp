@@ -47,7 +47,7 @@ TEST(Binning, Equal_population_fills_bins_evenly_and_keeps_equal_values_together
 TEST(Binning, Equal_width_in_the_logarithm_separates_decades) {
     const std::vector<double> values{1e3, 2e3, 5e4, 8e4, 2e6, 1e6};
     EXPECT_THAT(bin_values(values, 3, Binning::equal_width_log), ElementsAre(0, 0, 1, 1, 2, 2));
-    EXPECT_THAT(bin_values(values, 3, Binning::equal_width), ElementsAre(0, 0, 0, 0, 2 - 1, 1));  // middle: empty
+    EXPECT_THAT(bin_values(values, 3, Binning::equal_width), ElementsAre(0, 0, 0, 0, 2, 1));
 }
 
 double cost_of(const std::vector<double>& values, const std::vector<std::uint32_t>& bins) {
@@ -96,7 +96,7 @@ TEST(Binning, Bins_are_numbered_from_soft_to_stiff_whatever_the_rule) {
         const auto bins = bin_values(values, 6, how);
         for (std::size_t i = 0; i < values.size(); ++i)
             for (std::size_t j = 0; j < values.size(); ++j)
-                if (values[i] <= values[j]) ASSERT_LE(bins[i], bins[j]);
+                ASSERT_TRUE(values[i] > values[j] || bins[i] <= bins[j]);
         EXPECT_EQ(*std::max_element(bins.begin(), bins.end()), 5U);
     }
 }

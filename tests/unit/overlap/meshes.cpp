@@ -9,7 +9,9 @@
 
 namespace knead::test {
 
-TetMesh cube_mesh(int n, double side_m) { return kuhn_cube(static_cast<std::uint32_t>(n), side_m); }
+TetMesh cube_mesh(int n, double side_m) {
+    return kuhn_cube(static_cast<std::uint32_t>(n), side_m);
+}
 
 TetMesh jittered(TetMesh mesh, int n, double side_m, double share, std::uint64_t seed) {
     std::mt19937_64 bits(seed);

@@ -14,18 +14,22 @@ namespace knead::tools {
 namespace {
 
 constexpr double kStep = 1e-6;  // of a finite difference: error of order step^2 and epsilon / step
-// Central differences at kStep leave about 1e-10 of the modulus; ten times that is still far below any mistake.
+// Central differences at kStep leave about 1e-10 of the modulus; ten times that is still far below any
+// mistake.
 constexpr double kDifferenceTolerance = 1e-8;
 constexpr double kRounding = 1e-12;  // a few hundred operations in double
 
 const LameParameters kLame = lame_parameters(1.0, 0.3);
 
 /// Uniform in [-1, 1), the same on every platform.
-double uniform(std::mt19937_64& bits) { return static_cast<double>(bits() >> 11) * 0x1p-52 - 1; }
+double uniform(std::mt19937_64& bits) {
+    return static_cast<double>(bits() >> 11) * 0x1p-52 - 1;
+}
 
 Eigen::Matrix3d random_matrix(std::mt19937_64& bits) {
     Eigen::Matrix3d matrix;
-    for (int k = 0; k < 9; ++k) matrix(k) = uniform(bits);
+    for (int k = 0; k < 9; ++k)
+        matrix(k) = uniform(bits);
     return matrix;
 }
 
@@ -73,7 +77,8 @@ TEST(Corotational, Energy_and_stress_of_a_deformation_follow_the_closed_form) {
         const Eigen::Matrix3d R = point.rotation();
         const double dilation = (R.transpose() * F).trace() - 3;
         EXPECT_NEAR(point.energy_density_j_per_m3(),
-                    kLame.mu_pa * (F - R).squaredNorm() + kLame.lambda_pa / 2 * dilation * dilation, kRounding);
+                    kLame.mu_pa * (F - R).squaredNorm() + kLame.lambda_pa / 2 * dilation * dilation,
+                    kRounding);
         const Eigen::Matrix3d stress = 2 * kLame.mu_pa * (F - R) + kLame.lambda_pa * dilation * R;
         EXPECT_NEAR((point.stress_pa() - stress).norm(), 0, kRounding);
     }

@@ -11,11 +11,13 @@
 namespace knead::tools {
 namespace {
 
-constexpr double kStepM = 1e-7;           // one millionth of the cube's side
-constexpr double kTolerance = 1e-6;       // relative: rounding of the energy over the step
+constexpr double kStepM = 1e-7;      // one millionth of the cube's side
+constexpr double kTolerance = 1e-6;  // relative: rounding of the energy over the step
 constexpr double kYoungsModulusPa = 1e4;
 
-double uniform(std::mt19937_64& bits) { return static_cast<double>(bits() >> 11) * 0x1p-52 - 1; }
+double uniform(std::mt19937_64& bits) {
+    return static_cast<double>(bits() >> 11) * 0x1p-52 - 1;
+}
 
 /// Two cells a side, every node shifted by up to 0.4 of a cell: some tetrahedra are inside out.
 struct Tangle {
@@ -25,9 +27,11 @@ struct Tangle {
 
     Tangle() {
         std::mt19937_64 bits(13);
-        for (double& e : material.youngs_modulus_pa) e *= 1 + 0.5 * uniform(bits);
+        for (double& e : material.youngs_modulus_pa)
+            e *= 1 + 0.5 * uniform(bits);
         positions = ElasticBody(mesh, material).rest_positions_m();
-        for (double& x : positions) x += 0.02 * uniform(bits);
+        for (double& x : positions)
+            x += 0.02 * uniform(bits);
     }
 };
 

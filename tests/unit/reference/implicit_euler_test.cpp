@@ -54,14 +54,17 @@ TEST(ImplicitEuler, Free_body_set_moving_keeps_its_momentum) {
     // Lumped: a quarter of each tetrahedron's mass at each of its nodes.
     std::vector<double> mass(mesh.nodes_m.size());
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-        for (const std::uint32_t n : mesh.tetrahedra[t]) mass[n] += kDensity * signed_volume_m3(mesh, t) / 4;
+        for (const std::uint32_t n : mesh.tetrahedra[t])
+            mass[n] += kDensity * signed_volume_m3(mesh, t) / 4;
     const auto momentum = [&](std::size_t axis) {
         double sum = 0;
-        for (std::size_t n = 0; n < mass.size(); ++n) sum += mass[n] * state.velocities_m_per_s[n][axis];
+        for (std::size_t n = 0; n < mass.size(); ++n)
+            sum += mass[n] * state.velocities_m_per_s[n][axis];
         return sum;
     };
     const Point before{momentum(0), momentum(1), momentum(2)};
-    for (int k = 0; k < 10; ++k) state = euler.step(state, {}, kDtS).state;
+    for (int k = 0; k < 10; ++k)
+        state = euler.step(state, {}, kDtS).state;
     for (std::size_t axis = 0; axis < 3; ++axis)
         EXPECT_NEAR(momentum(axis), before[axis], kTolerance * std::abs(before[2]));
 }
@@ -78,7 +81,8 @@ TEST(ImplicitEuler, One_tetrahedron_pulled_at_its_free_node_obeys_the_equation_o
     MotionState state = euler.rest();
     state.velocities_m_per_s[3] = {0, 0, 1};
     const MotionStep step = euler.step(state, held, kDtS);
-    // Along z the gradient stays diagonal: R = I, P_zz = (2 mu + lambda) (F_zz - 1), force = -V P_zz / height.
+    // Along z the gradient stays diagonal: R = I, P_zz = (2 mu + lambda) (F_zz - 1), force = -V P_zz /
+    // height.
     const double volume = kSideM * kSideM * kSideM / 6;
     const double modulus = kYoungsModulusPa * (1 - kNu) / ((1 + kNu) * (1 - 2 * kNu));
     const double mass = kDensity * volume / 4;
@@ -88,7 +92,8 @@ TEST(ImplicitEuler, One_tetrahedron_pulled_at_its_free_node_obeys_the_equation_o
     EXPECT_NEAR(step.state.velocities_m_per_s[3][2], moved / kDtS, kTolerance * moved / kDtS);
     // Nodes 0, 1, 2 do not move: what they feel is elastic alone. Their z forces sum to that of node 3's.
     double push = 0;
-    for (const Point& force : step.solution.reactions_n) push += force[2];
+    for (const Point& force : step.solution.reactions_n)
+        push += force[2];
     EXPECT_NEAR(push, stiffness * moved, kTolerance * stiffness * moved);
 }
 
@@ -104,14 +109,16 @@ TEST(ImplicitEuler, Moved_node_feels_its_own_inertia) {
     const MotionStep step = euler.step(euler.rest(), all, kDtS);
     const double mass = kDensity * kSideM * kSideM * kSideM / 6;
     double push = 0;
-    for (const Point& force : step.solution.reactions_n) push += force[2];
+    for (const Point& force : step.solution.reactions_n)
+        push += force[2];
     EXPECT_NEAR(push, -mass * kMoveM / (kDtS * kDtS), kTolerance * mass * kMoveM / (kDtS * kDtS));
 }
 
 TEST(ImplicitEuler, Body_held_in_a_press_comes_to_the_equilibrium_of_the_static_problem) {
     const TetMesh mesh = kuhn_cube(3);
     Material material = uniform_material(mesh, kYoungsModulusPa);
-    for (std::size_t t = 0; t < mesh.tetrahedra.size(); t += 2) material.youngs_modulus_pa[t] = 5000;
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); t += 2)
+        material.youngs_modulus_pa[t] = 5000;
     const PlatePress press = plate_press(mesh, 0.1);
     const double expected = force_on_plate_n(press, StaticProblem(mesh, material).solve(press.motion))[2];
     ImplicitEuler euler(mesh, material);

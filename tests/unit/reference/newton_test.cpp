@@ -17,7 +17,8 @@ constexpr double kRoundingShare = 1e-9;
 TEST(Newton, Objective_of_a_nearly_incompressible_body_crushed_by_half_never_rises_until_the_end) {
     const TetMesh mesh = test::kuhn_cube(3);
     Material material = test::uniform_material(mesh, 22000, 0.49);
-    for (std::size_t t = 0; t < mesh.tetrahedra.size(); t += 3) material.youngs_modulus_pa[t] *= 100;
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); t += 3)
+        material.youngs_modulus_pa[t] *= 100;
     const ElasticBody body(mesh, material);
     const PlatePress press = plate_press(mesh, 0.5);
     const PrescribedUnknowns unknowns = spread(press.motion, body.rest_positions_m());

@@ -20,7 +20,7 @@ constexpr double kYoungsModulusPa = 22000;
 constexpr double kStrain = 0.1;
 // Two programs of other authors agree on the figures below to seven digits; the issue asks for 0.01 %.
 constexpr double kForceTolerance = 1e-4;
-constexpr double kPrintedDigits = 1e-6;   // seven digits were printed
+constexpr double kPrintedDigits = 1e-6;    // seven digits were printed
 constexpr double kFactorTolerance = 5e-5;  // the factors are given with four decimals
 
 struct KnownPress {
@@ -47,7 +47,9 @@ TEST_P(KnownCube, Press_of_the_homogeneous_cube_without_slip_gives_the_known_for
 INSTANTIATE_TEST_SUITE_P(Sizes, KnownCube,
                          testing::Values(KnownPress{6, 23.82645, 1.0830}, KnownPress{8, 23.62790, 1.0740},
                                          KnownPress{10, 23.51532, 1.0689}),
-                         [](const auto& known) { return std::string(1, 'n').append(std::to_string(known.param.cells)); });
+                         [](const auto& known) {
+                             return std::string(1, 'n').append(std::to_string(known.param.cells));
+                         });
 
 TEST(PlatePress, Upper_plate_with_slip_gives_the_known_lower_force_and_no_sideways_force) {
     const TetMesh mesh = kuhn_cube(10);
@@ -75,10 +77,12 @@ TEST(PlatePress, Force_is_proportional_to_the_elasticity_when_poissons_ratio_is_
     const TetMesh mesh = kuhn_cube(4);
     const PlatePress press = plate_press(mesh, kStrain);
     Material soft = uniform_material(mesh, 1000);
-    for (std::size_t t = 0; t < soft.youngs_modulus_pa.size(); t += 3) soft.youngs_modulus_pa[t] = 7000;
+    for (std::size_t t = 0; t < soft.youngs_modulus_pa.size(); t += 3)
+        soft.youngs_modulus_pa[t] = 7000;
     Material stiff = soft;
     constexpr double kRatio = 37;
-    for (double& e : stiff.youngs_modulus_pa) e *= kRatio;
+    for (double& e : stiff.youngs_modulus_pa)
+        e *= kRatio;
     const double soft_n = force_on_plate_n(press, StaticProblem(mesh, soft).solve(press.motion))[2];
     const double stiff_n = force_on_plate_n(press, StaticProblem(mesh, stiff).solve(press.motion))[2];
     EXPECT_NEAR(stiff_n, kRatio * soft_n, 1e-9 * stiff_n);
@@ -86,7 +90,8 @@ TEST(PlatePress, Force_is_proportional_to_the_elasticity_when_poissons_ratio_is_
 
 TEST(PlatePress, Plates_of_a_box_are_its_lowest_and_highest_nodes) {
     TetMesh mesh = kuhn_cube(2, 0.2);
-    for (Point& node : mesh.nodes_m) node = {node[0] + 1, 2 * node[1], 0.75 * node[2] - 3};
+    for (Point& node : mesh.nodes_m)
+        node = {node[0] + 1, 2 * node[1], 0.75 * node[2] - 3};
     const PlatePress press = plate_press(mesh, 0.25);
     EXPECT_EQ(press.held_nodes.size(), 9u);
     EXPECT_EQ(press.plate_nodes.size(), 9u);

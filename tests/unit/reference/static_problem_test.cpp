@@ -26,15 +26,17 @@ using test::uniform_material;
 constexpr double kYoungsModulusPa = 22000;
 constexpr double kSideM = 0.1;
 constexpr std::uint32_t kPatchCells = 4;
-// Positions in metres: Newton stops at 1e-10 of the forces, which the stiffness turns into about 1e-11 of the size.
+// Positions in metres: Newton stops at 1e-10 of the forces, which the stiffness turns into about 1e-11 of the
+// size.
 constexpr double kPositionToleranceM = 1e-10 * kSideM;
 constexpr double kForceTolerance = 1e-9;  // relative: the residual of 1e-10, with room for sums over nodes
 
-double uniform(std::mt19937_64& bits) { return static_cast<double>(bits() >> 11) * 0x1p-52 - 1; }
+double uniform(std::mt19937_64& bits) {
+    return static_cast<double>(bits() >> 11) * 0x1p-52 - 1;
+}
 
 bool on_boundary(const Point& point) {
-    return std::any_of(point.begin(), point.end(),
-                       [](double x) { return x < 1e-12 || x > kSideM - 1e-12; });
+    return std::any_of(point.begin(), point.end(), [](double x) { return x < 1e-12 || x > kSideM - 1e-12; });
 }
 
 /// A cube whose inner nodes are shifted by up to 0.15 of a cell.
@@ -43,7 +45,8 @@ TetMesh jittered_cube() {
     std::mt19937_64 bits(3);
     for (Point& node : mesh.nodes_m) {
         if (on_boundary(node)) continue;
-        for (double& x : node) x += 0.15 * kSideM / kPatchCells * uniform(bits);
+        for (double& x : node)
+            x += 0.15 * kSideM / kPatchCells * uniform(bits);
     }
     return mesh;
 }
@@ -83,15 +86,20 @@ Eigen::Matrix3d moment_of_reactions(const TetMesh& mesh, const PrescribedMotion&
     return moment;
 }
 
-double lame_mu(double nu) { return kYoungsModulusPa / (2 * (1 + nu)); }
-double lame_lambda(double nu) { return kYoungsModulusPa * nu / ((1 + nu) * (1 - 2 * nu)); }
+double lame_mu(double nu) {
+    return kYoungsModulusPa / (2 * (1 + nu));
+}
+double lame_lambda(double nu) {
+    return kYoungsModulusPa * nu / ((1 + nu) * (1 - 2 * nu));
+}
 
 TEST(StaticProblem, Affine_finite_boundary_motion_of_a_homogeneous_body_gives_the_affine_field_and_stress) {
     const TetMesh mesh = jittered_cube();
     const Eigen::Matrix3d turn =
         Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, -0.5).normalized()).toRotationMatrix();
     Eigen::Matrix3d stretch;
-    stretch << 1.10, 0.03, -0.02, 0.03, 0.93, 0.04, -0.02, 0.04, 1.02;  // symmetric: R of turn * stretch is turn
+    stretch << 1.10, 0.03, -0.02, 0.03, 0.93, 0.04, -0.02, 0.04,
+        1.02;  // symmetric: R of turn * stretch is turn
     for (const double nu : {0.0, 0.3, 0.45}) {
         const Motion motion = [&](const Eigen::Vector3d& x) {
             return Eigen::Vector3d(turn * stretch * x + Eigen::Vector3d(0.01, 0.02, -0.03));
@@ -135,7 +143,9 @@ TEST(StaticProblem, Force_on_one_face_of_a_stretched_block_is_stress_times_area)
     const TetMesh mesh = jittered_cube();
     constexpr double kNu = 0.3;
     constexpr double kStretch = 1.2;
-    const Motion motion = [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x.x(), x.y(), kStretch * x.z()); };
+    const Motion motion = [](const Eigen::Vector3d& x) {
+        return Eigen::Vector3d(x.x(), x.y(), kStretch * x.z());
+    };
     const PrescribedMotion prescribed = boundary_motion(mesh, motion);
     StaticProblem problem(mesh, uniform_material(mesh, kYoungsModulusPa, kNu));
     const StaticSolution solution = problem.solve(prescribed);
@@ -153,7 +163,8 @@ TEST(StaticProblem, Rigid_motion_of_a_heterogeneous_body_gives_no_force) {
     Material material = uniform_material(mesh, kYoungsModulusPa);
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
         material.youngs_modulus_pa[t] *= t % 3 == 0 ? 10 : 1;
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.8, Eigen::Vector3d(0.3, -1, 2).normalized()).toRotationMatrix();
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(2.8, Eigen::Vector3d(0.3, -1, 2).normalized()).toRotationMatrix();
     const Motion motion = [&](const Eigen::Vector3d& x) {
         return Eigen::Vector3d(turn * x + Eigen::Vector3d(0.1, -0.2, 0.3));
     };
@@ -163,7 +174,8 @@ TEST(StaticProblem, Rigid_motion_of_a_heterogeneous_body_gives_no_force) {
     EXPECT_LT(largest_error_m(mesh, solution, motion), kPositionToleranceM);
     double largest_n = 0;
     for (const Point& force : solution.reactions_n)
-        for (const double component : force) largest_n = std::max(largest_n, std::abs(component));
+        for (const double component : force)
+            largest_n = std::max(largest_n, std::abs(component));
     EXPECT_LT(largest_n, kForceTolerance * kYoungsModulusPa * kSideM * kSideM);
 }
 
@@ -176,8 +188,10 @@ struct Case {
     Case() {
         std::mt19937_64 bits(5);
         material = uniform_material(mesh, kYoungsModulusPa);
-        for (double& e : material.youngs_modulus_pa) e *= 1 + 0.9 * uniform(bits);
-        for (double& nu : material.poissons_ratio) nu = 0.3 + 0.15 * uniform(bits);
+        for (double& e : material.youngs_modulus_pa)
+            e *= 1 + 0.9 * uniform(bits);
+        for (double& nu : material.poissons_ratio)
+            nu = 0.3 + 0.15 * uniform(bits);
         for (std::uint32_t n = 0; n < mesh.nodes_m.size(); ++n) {
             const double z = mesh.nodes_m[n][2];
             if (z > 1e-12 && z < kSideM - 1e-12) continue;
@@ -189,7 +203,8 @@ struct Case {
 
 TEST(StaticProblem, Forces_balance_and_stay_the_same_when_nodes_and_tetrahedra_are_renumbered) {
     Case original;
-    const StaticSolution expected = StaticProblem(original.mesh, original.material).solve(original.prescribed);
+    const StaticSolution expected =
+        StaticProblem(original.mesh, original.material).solve(original.prescribed);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double scale_n = 0;
     for (const Point& force : expected.reactions_n) {
@@ -201,7 +216,8 @@ TEST(StaticProblem, Forces_balance_and_stay_the_same_when_nodes_and_tetrahedra_a
     // A stride that shares no factor with the counts (125 nodes, 384 tetrahedra) visits every number once.
     const auto shuffled = [](std::size_t count, std::size_t stride) {
         std::vector<std::uint32_t> order(count);
-        for (std::size_t k = 0; k < count; ++k) order[k] = static_cast<std::uint32_t>(k * stride % count);
+        for (std::size_t k = 0; k < count; ++k)
+            order[k] = static_cast<std::uint32_t>(k * stride % count);
         return order;
     };
     const std::vector<std::uint32_t> new_node = shuffled(original.mesh.nodes_m.size(), 47);
@@ -218,14 +234,17 @@ TEST(StaticProblem, Forces_balance_and_stay_the_same_when_nodes_and_tetrahedra_a
         renumbered.material.youngs_modulus_pa[t] = original.material.youngs_modulus_pa[from];
         renumbered.material.poissons_ratio[t] = original.material.poissons_ratio[from];
     }
-    for (std::uint32_t& node : renumbered.prescribed.nodes) node = new_node[node];
-    const StaticSolution found = StaticProblem(renumbered.mesh, renumbered.material).solve(renumbered.prescribed);
+    for (std::uint32_t& node : renumbered.prescribed.nodes)
+        node = new_node[node];
+    const StaticSolution found =
+        StaticProblem(renumbered.mesh, renumbered.material).solve(renumbered.prescribed);
     for (std::size_t k = 0; k < expected.reactions_n.size(); ++k)
         for (std::size_t axis = 0; axis < 3; ++axis)
             EXPECT_NEAR(found.reactions_n[k][axis], expected.reactions_n[k][axis], kForceTolerance * scale_n);
     for (std::size_t n = 0; n < new_node.size(); ++n)
         for (std::size_t axis = 0; axis < 3; ++axis)
-            EXPECT_NEAR(found.positions_m[new_node[n]][axis], expected.positions_m[n][axis], kPositionToleranceM);
+            EXPECT_NEAR(found.positions_m[new_node[n]][axis], expected.positions_m[n][axis],
+                        kPositionToleranceM);
 }
 
 TEST(StaticProblem, Reactions_are_the_energy_s_derivative_to_the_prescribed_displacements) {
@@ -273,24 +292,28 @@ TEST(StaticProblem, Cube_started_with_inner_tetrahedra_inside_out_recovers_its_r
     std::vector<Point> start = tangled.mesh.nodes_m;
     for (Point& node : start)
         if (!on_boundary(node))
-            for (double& x : node) x += 0.8 * kSideM / kPatchCells * uniform(bits);
+            for (double& x : node)
+                x += 0.8 * kSideM / kPatchCells * uniform(bits);
     TetMesh moved = tangled.mesh;
     moved.nodes_m = start;
     std::size_t inside_out = 0;
-    for (std::size_t t = 0; t < moved.tetrahedra.size(); ++t) inside_out += signed_volume_m3(moved, t) < 0;
+    for (std::size_t t = 0; t < moved.tetrahedra.size(); ++t)
+        inside_out += signed_volume_m3(moved, t) < 0;
     ASSERT_GT(inside_out, 20u);
 
     const PrescribedMotion held =
         boundary_motion(tangled.mesh, [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x); });
     StaticProblem problem(tangled.mesh, tangled.material);
     const StaticSolution solution = problem.solve(held, start);
-    EXPECT_LT(largest_error_m(tangled.mesh, solution, [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x); }),
-              kPositionToleranceM * 10);  // the forces vanish at rest: rounding noise decides when Newton stops
+    EXPECT_LT(
+        largest_error_m(tangled.mesh, solution, [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x); }),
+        kPositionToleranceM * 10);  // the forces vanish at rest: rounding noise decides when Newton stops
 }
 
 TEST(StaticProblem, Half_crushed_cube_still_converges) {
     Case crushed;
-    for (Point& u : crushed.prescribed.displacement_m) u = {0, 0, u[2] < 0 ? -0.5 * kSideM : 0};
+    for (Point& u : crushed.prescribed.displacement_m)
+        u = {0, 0, u[2] < 0 ? -0.5 * kSideM : 0};
     StaticProblem problem(crushed.mesh, crushed.material);
     const StaticSolution solution = problem.solve(crushed.prescribed);
     EXPECT_LE(solution.residual_n, 1e-10 * solution.force_scale_n);

@@ -18,6 +18,9 @@ constexpr double kPressedCube_n = 23.82645;
 constexpr double kPressedCubeTolerance_n = 1e-5;
 /// A pull of the object on the tool that is solver error, relative to the largest push.
 constexpr double kPullTolerance = 1e-4;
+/// A ball that sticks holds a node that still pushes along the normal, whatever that node pulls sideways, and
+/// sideways is partly down on a ball: there is no friction cone yet.
+constexpr double kSidewaysPullTolerance = 5e-3;
 
 struct Trace {
     std::vector<Vec3> forces_n;
@@ -28,67 +31,74 @@ struct Trace {
     double deepest_m = 0;  ///< of any tool node inside the tool
 };
 
-/// Into the object by `depth_m` and out again to 20 mm above, at constant speed; dt 1 ms.
-Trace press_and_leave(const Asset& asset, double depth_m, double speed_m_per_s, const SimulationConfig& config) {
-    Stepper stepper(asset, config);
+constexpr std::uint32_t kCells = 5;  ///< along an edge of the cube in the touch tests
+constexpr double kClearance_m = 0.001;
+constexpr double kDt_s = 1e-3;
+
+/// In one smooth second: from kClearance_m above the object to `depth_m` inside and back; then off by 20 mm.
+double height_at(double time_s, double depth_m) {
+    if (time_s > 1) return kClearance_m + 0.2 * (time_s - 1);
+    return kClearance_m - (depth_m + kClearance_m) * (1 - std::cos(2 * EIGEN_PI * time_s)) / 2;
+}
+
+double depth_of(const ToolSet& tool, const Pose& pose, const Vec& node) {
+    const Vec local = node - Vec(pose.position_m[0], pose.position_m[1], pose.position_m[2]);
+    return tool.shape == ToolShape::sphere ? tool.radius_m - local.norm() : local.z();
+}
+
+Trace press_and_leave(const Asset& asset, double depth_m) {
+    Stepper stepper(asset, {});
     Trace trace;
-    const double dt = 1e-3;
-    const double start_m = 0.001;
-    const int down = static_cast<int>((depth_m + start_m) / (speed_m_per_s * dt));
-    const int up = static_cast<int>((depth_m + 0.02) / (speed_m_per_s * dt));
-    for (int i = 1; i <= down + up; ++i) {
-        const double z = i <= down ? start_m - speed_m_per_s * dt * i : -depth_m + speed_m_per_s * dt * (i - down);
-        const Pose pose = moved(asset, {0, 0, z});
-        const StepResult result = stepper.step(pose, dt);
+    for (int i = 1; i <= 1100; ++i) {
+        const Pose pose = moved(asset, {0, 0, height_at(i * kDt_s, depth_m)});
+        const StepResult result = stepper.step(pose, kDt_s);
         trace.forces_n.push_back(result.force_n);
         trace.touched.push_back(result.touched_nodes);
         trace.status |= result.status;
         trace.largest_push_n = std::max(trace.largest_push_n, result.force_n[2]);
         trace.largest_pull_n = std::max(trace.largest_pull_n, -result.force_n[2]);
         for (const auto node : asset.tools[0].nodes) {
-            const Vec local = stepper.positions_m()[node] - Vec(pose.position_m[0], pose.position_m[1], pose.position_m[2]);
-            const double inside = asset.tools[0].shape == ToolShape::sphere ? asset.tools[0].radius_m - local.norm()
-                                                                            : local.z();
-            trace.deepest_m = std::max(trace.deepest_m, inside);
+            trace.deepest_m = std::max(trace.deepest_m, depth_of(asset.tools[0], pose, stepper.positions_m()[node]));
         }
     }
     return trace;
 }
 
+/// Most that the force may change in step i: the stiffness of one layer of cells under the whole plate, laterally
+/// confined, on the tool's way of a step at its fastest; and, for every node caught or let go in the last steps, a
+/// cell's mass brought to that speed or back within a step (it rings in the layers beneath for a few steps).
+double explained_change_n(const Trace& trace, std::size_t i, double depth_m) {
+    constexpr std::size_t kRinging = 5;
+    const double cell_m = 0.1 / kCells;
+    const double layer_n_per_m = 22e3 * 0.7 / (1.3 * 0.4) * 0.01 / cell_m;
+    const double cell_kg = 1000 * cell_m * cell_m * cell_m;
+    const double speed = EIGEN_PI * (depth_m + kClearance_m);
+    double changed = 0;
+    for (std::size_t k = i; k > 0 && k + kRinging > i; --k) {
+        changed += std::abs(static_cast<double>(trace.touched[k]) - static_cast<double>(trace.touched[k - 1]));
+    }
+    return (layer_n_per_m * kDt_s + changed * cell_kg / kDt_s) * speed;
+}
+
 class Touch : public testing::TestWithParam<std::tuple<ToolShape, ToolContact>> {};
 
-TEST_P(Touch, and_leave_never_pulls_and_never_penetrates) {
+TEST_P(Touch, and_leave_never_pulls_never_penetrates_and_jumps_only_by_stiffness_and_caught_inertia) {
     const auto [shape, contact] = GetParam();
-    const Asset asset = cube_asset(6, shape, contact);
-    const Trace trace = press_and_leave(asset, 0.01, 0.05, {});
+    const double depth_m = 0.01;
+    const Trace trace = press_and_leave(cube_asset(kCells, shape, contact), depth_m);
     EXPECT_EQ(trace.status, kStepOk);
     EXPECT_GT(trace.largest_push_n, 1);
-    EXPECT_LT(trace.largest_pull_n, kPullTolerance * trace.largest_push_n);
+    const bool sideways = shape == ToolShape::sphere && contact == ToolContact::sticking;
+    EXPECT_LT(trace.largest_pull_n,
+              (sideways ? kSidewaysPullTolerance : kPullTolerance) * trace.largest_push_n);
     EXPECT_LT(trace.deepest_m, 1e-6);
     EXPECT_EQ(trace.touched.front(), 0u);
     EXPECT_EQ(trace.touched.back(), 0u);
     EXPECT_EQ(trace.forces_n.back(), Vec3{});
-}
-
-TEST_P(Touch, changes_the_force_no_more_than_stiffness_and_caught_inertia_explain) {
-    const auto [shape, contact] = GetParam();
-    const Asset asset = cube_asset(6, shape, contact);
-    const double speed = 0.02, dt = 1e-3;
-    const Trace trace = press_and_leave(asset, 0.01, speed, {});
-    // A caught node takes the tool's speed within one step; it weighs at most a cell (4.6 g) at each of the nodes
-    // caught at once. Stiffness of the whole cube against the plate: 2.4 kN/m at rest, three times that for slack.
-    const double cell_kg = 1.0 / 216;
-    const double stiff_jump_n = 3 * 2400 * speed * dt;
     for (std::size_t i = 1; i < trace.forces_n.size(); ++i) {
-        const double change = std::abs(trace.forces_n[i][2] - trace.forces_n[i - 1][2]);
-        const auto now = static_cast<double>(std::max(trace.touched[i], trace.touched[i - 1]));
-        const auto before = static_cast<double>(std::min(trace.touched[i], trace.touched[i - 1]));
-        const bool settling = i > 1 && trace.touched[i - 1] != trace.touched[i - 2];  // the caught inertia goes again
-        const auto last = settling ? std::abs(static_cast<double>(trace.touched[i - 1]) -
-                                              static_cast<double>(trace.touched[i - 2]))
-                                   : 0.0;
-        const double caught = now - before + last;
-        EXPECT_LT(change, stiff_jump_n + caught * cell_kg * 2 * speed / dt) << "step " << i;
+        EXPECT_LT(std::abs(trace.forces_n[i][2] - trace.forces_n[i - 1][2]),
+                  explained_change_n(trace, i, depth_m))
+            << "step " << i;
     }
 }
 

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: Apache-2.0
+# Every installed header alone, as C++17; the C header as C99 too.
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+file(REMOVE_RECURSE ${WORK})
+file(GLOB_RECURSE headers RELATIVE ${PREFIX}/include ${PREFIX}/include/*.h)
+if(NOT headers)
+  message(FATAL_ERROR "no headers in ${PREFIX}/include")
+endif()
+foreach(header IN LISTS headers)
+  file(WRITE ${WORK}/alone.cpp "#include \"${header}\"\n#include \"${header}\"\n")
+  run(${CXX} -std=c++17 -Wall -Wextra -Wshadow -pedantic -Werror -fsyntax-only -I${PREFIX}/include ${WORK}/alone.cpp)
+endforeach()
+file(WRITE ${WORK}/alone.c "#include \"knead/knead.h\"\n")
+run(${CC} -std=c99 -Wall -Wextra -pedantic -Werror -fsyntax-only -I${PREFIX}/include ${WORK}/alone.c)

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: Apache-2.0
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+find_program(pkg_config NAMES pkg-config pkgconf)
+if(NOT pkg_config)
+  message(FATAL_ERROR "pkg-config is not installed")
+endif()
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+set(ENV{PKG_CONFIG_PATH} ${PREFIX}/${LIBDIR}/pkgconfig)
+set(ENV{LD_LIBRARY_PATH} ${PREFIX}/${LIBDIR})
+run(${pkg_config} --cflags --libs knead-runtime)
+separate_arguments(options UNIX_COMMAND "${run_output}")
+separate_arguments(flags UNIX_COMMAND "${FLAGS}")
+run(${CC} ${flags} -std=c99 -Wall -Wextra -pedantic -Werror ${SOURCE}/tests/unit/runtime/c_abi_test.c
+    -o ${WORK}/c_program ${options} -lm)
+run(${WORK}/c_program ${ASSET})
+run(${CXX} ${flags} -std=c++17 -Wall -Wextra -Werror ${SOURCE}/examples/haptic_loop/main.cpp
+    -o ${WORK}/cpp_program ${options})
+run(${WORK}/cpp_program ${ASSET})
+expect_press("${run_output}")
