@@ -34,17 +34,19 @@ int main(int argc, char** argv) {
     }
     std::printf("  time s  depth mm   force N\n");
     std::uint64_t tick_count = 0;
-    const auto run = loop.value().run(device.samples().back().time_s, script.rate_hz, [&](const knead::HapticTick& tick) {
-        if (++tick_count % 100 != 0) return;
-        const double depth_mm = 1e3 * (script.start.position_m[2] - tick.step.tool_position_m[2]);
-        std::printf("%8.3f  %8.3f  %8.4f%s\n", tick.device.time_s, depth_mm, tick.step.force_n[2],
-                    (tick.status & knead::kLoopSaturated) != 0 ? "  (the device's limit)" : "");
-    });
+    const auto run =
+        loop.value().run(device.samples().back().time_s, script.rate_hz, [&](const knead::HapticTick& tick) {
+            if (++tick_count % 100 != 0) return;
+            const double depth_mm = 1e3 * (script.start.position_m[2] - tick.step.tool_position_m[2]);
+            std::printf("%8.3f  %8.3f  %8.4f%s\n", tick.device.time_s, depth_mm, tick.step.force_n[2],
+                        (tick.status & knead::kLoopSaturated) != 0 ? "  (the device's limit)" : "");
+        });
     if (!run) {
         std::fprintf(stderr, "haptic_loop: error: %s\n", run.error().text().c_str());
         return 3;
     }
-    std::printf("%llu ticks, %llu late, longest %.0f us\n", static_cast<unsigned long long>(run.value().ticks),
+    std::printf("%llu ticks, %llu late, longest %.0f us\n",
+                static_cast<unsigned long long>(run.value().ticks),
                 static_cast<unsigned long long>(run.value().misses), 1e6 * run.value().longest_tick_s);
     return (run.value().step_status & (knead::kStepNotFinite | knead::kStepBadInput)) == 0 ? 0 : 1;
 }

@@ -27,7 +27,8 @@ void check_free_nodes(const Asset& asset) {
              kGroup + "/mesh/free_node_count");
     Offenders held;
     for (std::size_t i = 0; i < asset.tetrahedra.size(); ++i)
-        if (*std::min_element(asset.tetrahedra[i].begin(), asset.tetrahedra[i].end()) >= asset.free_node_count)
+        if (*std::min_element(asset.tetrahedra[i].begin(), asset.tetrahedra[i].end()) >=
+            asset.free_node_count)
             held.add(i);
     if (held.any())
         fail(ErrorCode::invalid_data,
@@ -45,7 +46,8 @@ void check_palette(const Asset& asset) {
         if (!is_positive(asset.palette[i].density_kg_per_m3)) densities.add(i);
     }
     const auto report = [&](const Offenders& bad, const char* what, const char* dataset) {
-        if (bad.any()) fail(ErrorCode::invalid_data, bad.text(asset.palette.size(), what, "entries"), at + dataset);
+        if (bad.any())
+            fail(ErrorCode::invalid_data, bad.text(asset.palette.size(), what, "entries"), at + dataset);
     };
     report(moduli, kNotPositive, "/palette/youngs_modulus_pa");
     report(ratios, kNotPoissonsRatio, "/palette/poissons_ratio");
@@ -53,13 +55,14 @@ void check_palette(const Asset& asset) {
     const auto& index = asset.palette_index;
     if (index.size() != asset.tetrahedra.size())
         fail(ErrorCode::invalid_data,
-             std::to_string(index.size()) + " entries for " + std::to_string(asset.tetrahedra.size()) + " tetrahedra",
+             std::to_string(index.size()) + " entries for " + std::to_string(asset.tetrahedra.size()) +
+                 " tetrahedra",
              at + "/palette_index");
     for (std::size_t i = 0; i < index.size(); ++i)
         if (index[i] >= asset.palette.size()) outside.add(i);
     if (outside.any())
-        fail(ErrorCode::invalid_data,
-             outside.text(index.size(), "entries name no palette entry", "elements"), at + "/palette_index");
+        fail(ErrorCode::invalid_data, outside.text(index.size(), "entries name no palette entry", "elements"),
+             at + "/palette_index");
 }
 
 void check_tool_shape(const ToolSet& tool, const std::string& where) {
@@ -73,14 +76,16 @@ void check_tool_shape(const ToolSet& tool, const std::string& where) {
     const auto& half = tool.half_extents_m;
     const bool unbounded = half[0] == 0 && half[1] == 0;
     if (tool.shape == ToolShape::plate && !unbounded && !(is_positive(half[0]) && is_positive(half[1])))
-        fail(ErrorCode::invalid_data, "the half extents of a plate are neither both 0 nor both finite and > 0",
+        fail(ErrorCode::invalid_data,
+             "the half extents of a plate are neither both 0 nor both finite and > 0",
              where + "/half_extents_m");
     if (!all_finite(tool.rest_position_m))
         fail(ErrorCode::invalid_data, "the rest position is not finite", where + "/rest_position_m");
     const auto& q = tool.rest_orientation_wxyz;
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(std::abs(length - 1) <= kUnitQuaternionTolerance))
-        fail(ErrorCode::invalid_data, "the rest orientation is not a unit quaternion", where + "/rest_orientation_wxyz");
+        fail(ErrorCode::invalid_data, "the rest orientation is not a unit quaternion",
+             where + "/rest_orientation_wxyz");
 }
 
 void check_tool_nodes(const ToolSet& tool, std::uint32_t free_node_count, const std::string& where) {
@@ -96,7 +101,8 @@ void check_tool_nodes(const ToolSet& tool, std::uint32_t free_node_count, const 
 
 void check_tools(const Asset& asset) {
     std::vector<std::string> names;
-    for (const ToolSet& tool : asset.tools) names.push_back(tool.name);
+    for (const ToolSet& tool : asset.tools)
+        names.push_back(tool.name);
     check_names(names, "a tool's name", kGroup + "/tools");
     for (const ToolSet& tool : asset.tools) {
         const std::string where = kGroup + "/tools/" + tool.name;
@@ -114,9 +120,10 @@ void check_surface(const Asset& asset) {
         if (a >= n || b >= n || c >= n || a == b || b == c || a == c) bad.add(i);
     }
     if (bad.any())
-        fail(ErrorCode::invalid_data,
-             bad.text(triangles.size(), "triangles name a node twice or one that does not exist", "triangles"),
-             kGroup + "/surface/triangles");
+        fail(
+            ErrorCode::invalid_data,
+            bad.text(triangles.size(), "triangles name a node twice or one that does not exist", "triangles"),
+            kGroup + "/surface/triangles");
 }
 
 }  // namespace
@@ -132,7 +139,8 @@ Status validate(const Asset& asset) {
         if (!all_finite(asset.gravity_m_per_s2))
             fail(ErrorCode::invalid_data, "gravity is not finite", kGroup + "/gravity/acceleration_m_per_s2");
         if (!std::isfinite(asset.damping_per_s) || asset.damping_per_s < 0)
-            fail(ErrorCode::invalid_data, "damping is not finite and >= 0", kGroup + "/damping/mass_proportional_per_s");
+            fail(ErrorCode::invalid_data, "damping is not finite and >= 0",
+                 kGroup + "/damping/mass_proportional_per_s");
         check_surface(asset);
         for (const Asset::Request& request : asset.requests) {
             check_text(request.group, "a request's group", "/provenance/requests/groups");

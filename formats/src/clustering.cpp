@@ -13,7 +13,8 @@ namespace {
 const std::string kGroup = "/knead/clustering";
 
 template <class T>
-void check_length(const std::vector<T>& values, std::size_t expected, const char* of, const std::string& where) {
+void check_length(const std::vector<T>& values, std::size_t expected, const char* of,
+                  const std::string& where) {
     if (values.size() != expected)
         fail(ErrorCode::invalid_data,
              std::to_string(values.size()) + " entries for " + std::to_string(expected) + " " + of, where);
@@ -40,7 +41,8 @@ void check_partition(const std::vector<std::uint32_t>& index, std::size_t count,
     }
     if (outside.any())
         fail(ErrorCode::invalid_data,
-             outside.text(index.size(), "entries are not below " + std::to_string(count), element_name), where);
+             outside.text(index.size(), "entries are not below " + std::to_string(count), element_name),
+             where);
     for (std::size_t i = 0; i < count; ++i)
         if (!used[i]) unused.add(i);
     if (unused.any()) fail(ErrorCode::invalid_data, unused.text(count, "are not used", part_name), where);
@@ -78,7 +80,8 @@ void check_clusters(const Clustering& c) {
         fail(ErrorCode::invalid_data, not_finite.text(clusters, "points are not finite", "clusters"),
              at + "/barycentre_m");
     if (falling.any())
-        fail(ErrorCode::invalid_data, falling.text(clusters, "clusters stand before one of a softer bin", "clusters"),
+        fail(ErrorCode::invalid_data,
+             falling.text(clusters, "clusters stand before one of a softer bin", "clusters"),
              at + "/bin_of_cluster");
 }
 
@@ -98,12 +101,14 @@ Status validate(const Clustering& clustering, std::size_t tetrahedron_count) {
     return guarded(kGroup, [&] {
         const Clustering& c = clustering;
         check_length(c.bin_of_tetrahedron, tetrahedron_count, "tetrahedra", kGroup + "/bin_of_tetrahedron");
-        check_length(c.cluster_of_tetrahedron, tetrahedron_count, "tetrahedra", kGroup + "/cluster_of_tetrahedron");
+        check_length(c.cluster_of_tetrahedron, tetrahedron_count, "tetrahedra",
+                     kGroup + "/cluster_of_tetrahedron");
         check_bins(c);
         check_clusters(c);
         const std::size_t bins = c.bin_youngs_modulus_pa.size(), clusters = c.bin_of_cluster.size();
         check_partition(c.bin_of_tetrahedron, bins, "elements", "bins", kGroup + "/bin_of_tetrahedron");
-        check_partition(c.cluster_of_tetrahedron, clusters, "elements", "clusters", kGroup + "/cluster_of_tetrahedron");
+        check_partition(c.cluster_of_tetrahedron, clusters, "elements", "clusters",
+                        kGroup + "/cluster_of_tetrahedron");
         check_partition(c.bin_of_cluster, bins, "clusters", "bins", kGroup + "/clusters/bin_of_cluster");
         check_agreement(c);
         return Unit{};

@@ -11,7 +11,9 @@
 namespace knead {
 namespace {
 
-bool is_float(const Value& value) { return value.type == ScalarType::f32 || value.type == ScalarType::f64; }
+bool is_float(const Value& value) {
+    return value.type == ScalarType::f32 || value.type == ScalarType::f64;
+}
 
 double number_at(const Value& value, std::size_t index) {
     return with_element(value, index, [](auto element) { return static_cast<double>(element); });
@@ -46,12 +48,15 @@ class Comparison {
 
     std::vector<Difference> run(const Payload& a, const Payload& b) {
         std::set<std::string> paths;
-        for (const auto& [path, node] : a.nodes) paths.insert(path);
-        for (const auto& [path, node] : b.nodes) paths.insert(path);
+        for (const auto& [path, node] : a.nodes)
+            paths.insert(path);
+        for (const auto& [path, node] : b.nodes)
+            paths.insert(path);
         for (const std::string& path : paths) {
             const auto in_a = a.nodes.find(path), in_b = b.nodes.find(path);
             if (in_a == a.nodes.end() || in_b == b.nodes.end())
-                add(path, std::string("only in the ") + (in_b == b.nodes.end() ? "first" : "second") + " file");
+                add(path,
+                    std::string("only in the ") + (in_b == b.nodes.end() ? "first" : "second") + " file");
             else
                 compare(path, in_a->second, in_b->second);
         }
@@ -59,7 +64,8 @@ class Comparison {
     }
 
   private:
-    void add(const std::string& path, const std::string& message, std::uint64_t count = 0, double largest = 0) {
+    void add(const std::string& path, const std::string& message, std::uint64_t count = 0,
+             double largest = 0) {
         differences_.push_back({path, message, count, largest});
     }
 
@@ -71,8 +77,10 @@ class Comparison {
 
     void compare_attributes(const std::string& path, const Node& a, const Node& b) {
         std::set<std::string> names;
-        for (const auto& [name, value] : a.attributes) names.insert(name);
-        for (const auto& [name, value] : b.attributes) names.insert(name);
+        for (const auto& [name, value] : a.attributes)
+            names.insert(name);
+        for (const auto& [name, value] : b.attributes)
+            names.insert(name);
         for (const std::string& name : names) {
             const auto in_a = a.attributes.find(name), in_b = b.attributes.find(name);
             if (in_a == a.attributes.end() || in_b == b.attributes.end())
@@ -91,11 +99,13 @@ class Comparison {
         for (std::size_t i = 0; i < a.count(); ++i) {
             if (same_element(a, b, i, tolerance)) continue;
             if (count++ == 0) first = i;
-            if (a.type != ScalarType::text) largest = std::max(largest, std::abs(number_at(a, i) - number_at(b, i)));
+            if (a.type != ScalarType::text)
+                largest = std::max(largest, std::abs(number_at(a, i) - number_at(b, i)));
         }
         if (count == 0) return;
-        std::string message = std::to_string(count) + " of " + std::to_string(a.count()) + " values differ, first" +
-                              position_text(a, first) + ": " + element_text(a, first) + " and " + element_text(b, first);
+        std::string message = std::to_string(count) + " of " + std::to_string(a.count()) +
+                              " values differ, first" + position_text(a, first) + ": " +
+                              element_text(a, first) + " and " + element_text(b, first);
         if (a.type != ScalarType::text) message += "; largest difference " + number_text(largest);
         add(path, message, count, largest);
     }
@@ -140,9 +150,10 @@ Result<std::vector<Difference>> compare_files(const std::filesystem::path& a, co
         check_options(options, first.payload, second.payload);
         std::vector<Difference> differences = Comparison(options).run(first.payload, second.payload);
         if (first.header.kind != second.header.kind)
-            differences.insert(differences.begin(),
-                               Difference{"/@kind", std::string(to_string(first.header.kind)) + " and " +
-                                                        to_string(second.header.kind), 0, 0});
+            differences.insert(differences.begin(), Difference{"/@kind",
+                                                               std::string(to_string(first.header.kind)) +
+                                                                   " and " + to_string(second.header.kind),
+                                                               0, 0});
         return differences;
     });
 }

@@ -41,8 +41,7 @@ struct Names {
     }
     void check(herr_t status, const char* what, const std::string& where) const {
         if (no_memory) throw std::bad_alloc();
-        if (too_many)
-            fail(ErrorCode::too_large, "more than " + std::to_string(limit) + " " + what, where);
+        if (too_many) fail(ErrorCode::too_large, "more than " + std::to_string(limit) + " " + what, where);
         if (status < 0) fail(ErrorCode::corrupt, std::string("cannot list the ") + what, where);
     }
 };
@@ -88,17 +87,28 @@ Session::~Session() {
 
 hid_t numeric_type(ScalarType type) {
     switch (type) {
-        case ScalarType::i8: return H5T_STD_I8LE;
-        case ScalarType::u8: return H5T_STD_U8LE;
-        case ScalarType::i16: return H5T_STD_I16LE;
-        case ScalarType::u16: return H5T_STD_U16LE;
-        case ScalarType::i32: return H5T_STD_I32LE;
-        case ScalarType::u32: return H5T_STD_U32LE;
-        case ScalarType::i64: return H5T_STD_I64LE;
-        case ScalarType::u64: return H5T_STD_U64LE;
-        case ScalarType::f32: return H5T_IEEE_F32LE;
-        case ScalarType::f64: return H5T_IEEE_F64LE;
-        case ScalarType::text: break;
+        case ScalarType::i8:
+            return H5T_STD_I8LE;
+        case ScalarType::u8:
+            return H5T_STD_U8LE;
+        case ScalarType::i16:
+            return H5T_STD_I16LE;
+        case ScalarType::u16:
+            return H5T_STD_U16LE;
+        case ScalarType::i32:
+            return H5T_STD_I32LE;
+        case ScalarType::u32:
+            return H5T_STD_U32LE;
+        case ScalarType::i64:
+            return H5T_STD_I64LE;
+        case ScalarType::u64:
+            return H5T_STD_U64LE;
+        case ScalarType::f32:
+            return H5T_IEEE_F32LE;
+        case ScalarType::f64:
+            return H5T_IEEE_F64LE;
+        case ScalarType::text:
+            break;
     }
     return -1;
 }
@@ -149,7 +159,8 @@ Handle open_child(hid_t group, const std::string& name, const std::string& where
     return child;
 }
 
-Value describe(const Handle& type, const Handle& space, std::uint64_t max_text_bytes, const std::string& where) {
+Value describe(const Handle& type, const Handle& space, std::uint64_t max_text_bytes,
+               const std::string& where) {
     if (!type.ok() || !space.ok()) fail(ErrorCode::corrupt, "type or extents cannot be read", where);
     Value value;
     if (H5Tget_class(type.get()) == H5T_STRING) {
@@ -160,7 +171,8 @@ Value describe(const Handle& type, const Handle& space, std::uint64_t max_text_b
         value.type = ScalarType::text;
         value.element_bytes = H5Tget_size(type.get());
         if (value.element_bytes > max_text_bytes)
-            fail(ErrorCode::too_large, "declares texts of " + std::to_string(value.element_bytes) + " bytes", where);
+            fail(ErrorCode::too_large, "declares texts of " + std::to_string(value.element_bytes) + " bytes",
+                 where);
     } else {
         value.type = numeric_type_of(type.get(), where);
         value.element_bytes = size_of(value.type);
@@ -178,24 +190,27 @@ Value describe(const Handle& type, const Handle& space, std::uint64_t max_text_b
     return value;
 }
 
-Value read_attribute(hid_t object, const std::string& name, const ReadLimits& limits, const std::string& where) {
+Value read_attribute(hid_t object, const std::string& name, const ReadLimits& limits,
+                     const std::string& where) {
     const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
     if (!attribute.ok()) fail(ErrorCode::corrupt, "cannot open the attribute", where);
     const Handle type(H5Aget_type(attribute.get()), H5Tclose);
     const Handle space(H5Aget_space(attribute.get()), H5Sclose);
     Value value = describe(type, space, limits.max_string_bytes, where);
     if (value.byte_count() > limits.max_string_bytes)
-        fail(ErrorCode::too_large, "the attribute has " + std::to_string(value.byte_count()) + " bytes", where);
+        fail(ErrorCode::too_large, "the attribute has " + std::to_string(value.byte_count()) + " bytes",
+             where);
     value.storage.resize(value.byte_count());
     value.bytes = value.storage;
     if (value.storage.empty()) return value;
-    const Handle memory_type = stored_type(value);
-    if (H5Aread(attribute.get(), memory_type.get(), value.storage.data()) < 0)
+    // describe() accepted the stored type, so that nothing is left to convert: ASCII and UTF-8 alike.
+    if (H5Aread(attribute.get(), type.get(), value.storage.data()) < 0)
         fail(ErrorCode::corrupt, "cannot read the attribute", where);
     return value;
 }
 
-std::map<std::string, Value> read_attributes(hid_t object, const ReadLimits& limits, const std::string& where) {
+std::map<std::string, Value> read_attributes(hid_t object, const ReadLimits& limits,
+                                             const std::string& where) {
     Names names{{}, kMaxAttributes};
     hsize_t index = 0;
     const herr_t status = H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, &index, collect_attribute, &names);
@@ -206,7 +221,7 @@ std::map<std::string, Value> read_attributes(hid_t object, const ReadLimits& lim
     return attributes;
 }
 
-void check_storage(hid_t dataset, const Value& value, const std::string& where) {
+std::uint64_t check_storage(hid_t dataset, const std::string& where) {
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
     if (!creation.ok()) fail(ErrorCode::corrupt, "its layout cannot be read", where);
     const H5D_layout_t layout = H5Pget_layout(creation.get());
@@ -220,26 +235,28 @@ void check_storage(hid_t dataset, const Value& value, const std::string& where) 
     for (int i = 0; i < filters; ++i) {
         unsigned flags = 0, config = 0;
         std::size_t parameters = 0;
-        const H5Z_filter_t filter = H5Pget_filter2(creation.get(), static_cast<unsigned>(i), &flags, &parameters,
-                                                   nullptr, 0, nullptr, &config);
+        const H5Z_filter_t filter = H5Pget_filter2(creation.get(), static_cast<unsigned>(i), &flags,
+                                                   &parameters, nullptr, 0, nullptr, &config);
         inflates = inflates || filter == H5Z_FILTER_DEFLATE;
         if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_FLETCHER32)
-            fail(ErrorCode::forbidden, "uses HDF5 filter " + std::to_string(filter) + ", which Knead files never have",
-                 where);
+            fail(ErrorCode::forbidden,
+                 "uses HDF5 filter " + std::to_string(filter) + ", which Knead files never have", where);
     }
     const std::uint64_t stored = H5Dget_storage_size(dataset);
-    const std::uint64_t possible = stored > (~std::uint64_t{0}) / kMaxInflation ? ~std::uint64_t{0} : stored * kMaxInflation;
-    if (value.byte_count() > (inflates ? possible : stored))
-        fail(ErrorCode::too_large,
-             "declares " + value.shape_text() + ", but the file holds only " + std::to_string(stored) + " bytes of it",
-             where);
+    if (!inflates) return stored;
+    return stored > (~std::uint64_t{0}) / kMaxInflation ? ~std::uint64_t{0} : stored * kMaxInflation;
+}
+
+std::uint64_t bytes_outside_header(hid_t dataset) {
+    const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+    return H5Pget_layout(creation.get()) == H5D_COMPACT ? 0 : H5Dget_storage_size(dataset);
 }
 
 void read_elements(hid_t dataset, Value& value, const std::string& where) {
     value.storage.resize(value.byte_count());
     value.bytes = value.storage;
     if (value.storage.empty()) return;
-    const Handle type = stored_type(value);
+    const Handle type(H5Dget_type(dataset), H5Tclose);  // no conversion: describe() accepted it
     if (H5Dread(dataset, type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.storage.data()) < 0)
         fail(ErrorCode::corrupt, "its data cannot be read: the file is truncated or damaged", where);
 }

@@ -75,7 +75,8 @@ struct Link {
 /// The links of a group in the order of their names. Throws too_large beyond `limit`.
 [[nodiscard]] std::vector<Link> links_of(hid_t group, std::size_t limit, const std::string& where);
 
-/// Opens what a hard link leads to; refuses every other kind of link as `forbidden`, and its absence as `missing`.
+/// Opens what a hard link leads to; refuses every other kind of link as `forbidden`, and its absence as
+/// `missing`.
 [[nodiscard]] Handle open_child(hid_t group, const std::string& name, const std::string& where);
 
 /// Type and extents of a dataset or attribute, not its data. Throws wrong_type, wrong_extent.
@@ -90,10 +91,14 @@ struct Link {
 [[nodiscard]] std::map<std::string, Value> read_attributes(hid_t object, const ReadLimits& limits,
                                                            const std::string& where);
 
-/// Refuses external storage, virtual layout, unknown filters, and extents that the file cannot hold.
-void check_storage(hid_t dataset, const Value& value, const std::string& where);
+/// Refuses external storage, virtual layout and unknown filters (forbidden).
+/// @return the most bytes that what the file holds of the dataset can become
+[[nodiscard]] std::uint64_t check_storage(hid_t dataset, const std::string& where);
 
-/// Reads the elements of a dataset that check_storage() accepted. Throws corrupt.
+/// Bytes of a dataset's data, unless they stand in its header.
+[[nodiscard]] std::uint64_t bytes_outside_header(hid_t dataset);
+
+/// Reads the elements of a dataset that is no larger than check_storage() allows. Throws corrupt.
 void read_elements(hid_t dataset, Value& value, const std::string& where);
 
 /// Where an object's header is in the file, and how long it is.

@@ -63,11 +63,16 @@ Result<FileKind> validate_file(const std::filesystem::path& file, const ReadLimi
         return kind;
     };
     switch (kind) {
-        case FileKind::tet_mesh: return kind_or_error(read_tet_mesh(file, limits));
-        case FileKind::material: return kind_or_error(read_material(file, limits));
-        case FileKind::clustering: return kind_or_error(read_clustering(file, limits));
-        case FileKind::overlap: return kind_or_error(read_overlap(file, limits));
-        case FileKind::asset: break;
+        case FileKind::tet_mesh:
+            return kind_or_error(read_tet_mesh(file, limits));
+        case FileKind::material:
+            return kind_or_error(read_material(file, limits));
+        case FileKind::clustering:
+            return kind_or_error(read_clustering(file, limits));
+        case FileKind::overlap:
+            return kind_or_error(read_overlap(file, limits));
+        case FileKind::asset:
+            break;
     }
     return kind_or_error(read_asset(file, limits));
 }

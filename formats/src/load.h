@@ -18,7 +18,8 @@ struct LoadedFile {
 };
 
 /// Opens a file and goes through the checks in the order that read.h promises, up to and with the content
-/// hash; the caller decodes and checks the invariants. `accepted`: kinds that the caller can use. Throws Failure.
+/// hash; the caller decodes and checks the invariants. `accepted`: kinds that the caller can use. Throws
+/// Failure.
 [[nodiscard]] LoadedFile load_file(const std::filesystem::path& file, const ReadLimits& limits,
                                    std::initializer_list<FileKind> accepted);
 

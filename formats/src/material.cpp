@@ -16,7 +16,8 @@ void check_values(const std::vector<double>& values, std::size_t expected, bool 
                   const char* what, const std::string& where) {
     if (values.size() != expected)
         fail(ErrorCode::invalid_data,
-             std::to_string(values.size()) + " values for " + std::to_string(expected) + " tetrahedra", where);
+             std::to_string(values.size()) + " values for " + std::to_string(expected) + " tetrahedra",
+             where);
     Offenders bad;
     for (std::size_t i = 0; i < values.size(); ++i)
         if (!is_valid(values[i])) bad.add(i);
@@ -30,7 +31,8 @@ void check_bins(const Material& material, std::size_t tetrahedron_count) {
     if (bin.empty()) return;
     if (bin.size() != tetrahedron_count)
         fail(ErrorCode::invalid_data,
-             std::to_string(bin.size()) + " entries for " + std::to_string(tetrahedron_count) + " tetrahedra", where);
+             std::to_string(bin.size()) + " entries for " + std::to_string(tetrahedron_count) + " tetrahedra",
+             where);
     const std::size_t bin_count = std::size_t{*std::max_element(bin.begin(), bin.end())} + 1;
     if (bin_count > tetrahedron_count)
         fail(ErrorCode::invalid_data,

@@ -19,11 +19,14 @@ constexpr std::size_t kMaxIndex = std::numeric_limits<std::int32_t>::max();
 void check_coordinates(const std::vector<Point>& nodes_m, const std::string& where) {
     Offenders bad;
     for (std::size_t i = 0; i < nodes_m.size(); ++i)
-        if (!std::isfinite(nodes_m[i][0]) || !std::isfinite(nodes_m[i][1]) || !std::isfinite(nodes_m[i][2])) bad.add(i);
-    if (bad.any()) fail(ErrorCode::invalid_data, bad.text(nodes_m.size(), "nodes are not finite", "nodes"), where);
+        if (!std::isfinite(nodes_m[i][0]) || !std::isfinite(nodes_m[i][1]) || !std::isfinite(nodes_m[i][2]))
+            bad.add(i);
+    if (bad.any())
+        fail(ErrorCode::invalid_data, bad.text(nodes_m.size(), "nodes are not finite", "nodes"), where);
 }
 
-void check_indices(std::size_t node_count, const std::vector<Tetrahedron>& tetrahedra, const std::string& where) {
+void check_indices(std::size_t node_count, const std::vector<Tetrahedron>& tetrahedra,
+                   const std::string& where) {
     Offenders outside, repeated;
     for (std::size_t i = 0; i < tetrahedra.size(); ++i) {
         const auto& [a, b, c, d] = tetrahedra[i];
@@ -33,7 +36,8 @@ void check_indices(std::size_t node_count, const std::vector<Tetrahedron>& tetra
     const std::string nodes = std::to_string(node_count) + " nodes";
     if (outside.any())
         fail(ErrorCode::invalid_data,
-             outside.text(tetrahedra.size(), "tetrahedra name a node beyond the " + nodes, "elements"), where);
+             outside.text(tetrahedra.size(), "tetrahedra name a node beyond the " + nodes, "elements"),
+             where);
     if (repeated.any())
         fail(ErrorCode::invalid_data,
              repeated.text(tetrahedra.size(), "tetrahedra name a node twice", "elements"), where);
@@ -43,12 +47,14 @@ void check_every_node_used(std::size_t node_count, const std::vector<Tetrahedron
                            const std::string& where) {
     std::vector<bool> used(node_count, false);
     for (const Tetrahedron& tetrahedron : tetrahedra)
-        for (const std::uint32_t node : tetrahedron) used[node] = true;
+        for (const std::uint32_t node : tetrahedron)
+            used[node] = true;
     Offenders unused;
     for (std::size_t i = 0; i < node_count; ++i)
         if (!used[i]) unused.add(i);
     if (unused.any())
-        fail(ErrorCode::invalid_data, unused.text(node_count, "nodes belong to no tetrahedron", "nodes"), where);
+        fail(ErrorCode::invalid_data, unused.text(node_count, "nodes belong to no tetrahedron", "nodes"),
+             where);
 }
 
 void check_volumes(const std::vector<Point>& nodes_m, const std::vector<Tetrahedron>& tetrahedra,
@@ -61,14 +67,19 @@ void check_volumes(const std::vector<Point>& nodes_m, const std::vector<Tetrahed
     }
     if (bad.any())
         fail(ErrorCode::invalid_data,
-             bad.text(tetrahedra.size(), "tetrahedra have no positive volume (flat or inverted)", "elements"), where);
+             bad.text(tetrahedra.size(), "tetrahedra have no positive volume (flat or inverted)", "elements"),
+             where);
 }
 
 }  // namespace
 
-bool is_positive(double value) { return std::isfinite(value) && value > 0; }
+bool is_positive(double value) {
+    return std::isfinite(value) && value > 0;
+}
 
-bool is_poissons_ratio(double value) { return value > -1.0 && value < 0.5; }
+bool is_poissons_ratio(double value) {
+    return value > -1.0 && value < 0.5;
+}
 
 void check_mesh(const std::vector<Point>& nodes_m, const std::vector<Tetrahedron>& tetrahedra,
                 const std::string& group) {
@@ -84,8 +95,8 @@ void check_mesh(const std::vector<Point>& nodes_m, const std::vector<Tetrahedron
 
 void check_text(const std::string& text, const char* what, const std::string& where) {
     if (text.size() > kMaxTextBytes)
-        fail(ErrorCode::invalid_data, std::string(what) + " is longer than " + std::to_string(kMaxTextBytes) + " bytes",
-             where);
+        fail(ErrorCode::invalid_data,
+             std::string(what) + " is longer than " + std::to_string(kMaxTextBytes) + " bytes", where);
     if (text.find('\0') != std::string::npos)
         fail(ErrorCode::invalid_data, std::string(what) + " holds a zero byte", where);
 }

@@ -16,16 +16,26 @@ auto with_element(const Value& value, std::size_t index, Use&& use) {
         return use(element);
     };
     switch (value.type) {
-        case ScalarType::i8: return read(std::int8_t{});
-        case ScalarType::u8: return read(std::uint8_t{});
-        case ScalarType::i16: return read(std::int16_t{});
-        case ScalarType::u16: return read(std::uint16_t{});
-        case ScalarType::i32: return read(std::int32_t{});
-        case ScalarType::u32: return read(std::uint32_t{});
-        case ScalarType::i64: return read(std::int64_t{});
-        case ScalarType::u64: return read(std::uint64_t{});
-        case ScalarType::f32: return read(float{});
-        default: return read(double{});
+        case ScalarType::i8:
+            return read(std::int8_t{});
+        case ScalarType::u8:
+            return read(std::uint8_t{});
+        case ScalarType::i16:
+            return read(std::int16_t{});
+        case ScalarType::u16:
+            return read(std::uint16_t{});
+        case ScalarType::i32:
+            return read(std::int32_t{});
+        case ScalarType::u32:
+            return read(std::uint32_t{});
+        case ScalarType::i64:
+            return read(std::int64_t{});
+        case ScalarType::u64:
+            return read(std::uint64_t{});
+        case ScalarType::f32:
+            return read(float{});
+        default:
+            return read(double{});
     }
 }
 

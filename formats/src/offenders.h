@@ -17,8 +17,10 @@ class Offenders {
     [[nodiscard]] bool any() const noexcept { return count_ > 0; }
 
     /// "3 of 1185 values are not positive (elements 17, 204, 993)"
-    [[nodiscard]] std::string text(std::size_t total, const std::string& what, const std::string& id_name) const {
-        std::string text = std::to_string(count_) + " of " + std::to_string(total) + " " + what + " (" + id_name;
+    [[nodiscard]] std::string text(std::size_t total, const std::string& what,
+                                   const std::string& id_name) const {
+        std::string text =
+            std::to_string(count_) + " of " + std::to_string(total) + " " + what + " (" + id_name;
         for (std::size_t i = 0; i < ids_.size() && i < count_; ++i)
             text += (i == 0 ? " " : ", ") + std::to_string(ids_[i]);
         return text + (count_ > ids_.size() ? ", ...)" : ")");

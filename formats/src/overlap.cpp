@@ -28,7 +28,8 @@ void check_row_offsets(const OverlapMatrix& m) {
     Offenders bad;
     for (std::size_t j = 0; j + 1 < offsets.size(); ++j)
         if (offsets[j + 1] < offsets[j]) bad.add(j);
-    if (bad.any()) fail(ErrorCode::invalid_data, bad.text(m.coarse_count, "rows end before they start", "rows"), where);
+    if (bad.any())
+        fail(ErrorCode::invalid_data, bad.text(m.coarse_count, "rows end before they start", "rows"), where);
 }
 
 void check_entries(const OverlapMatrix& m) {
@@ -42,7 +43,8 @@ void check_entries(const OverlapMatrix& m) {
     if (outside.any())
         fail(ErrorCode::invalid_data,
              outside.text(m.columns.size(),
-                          "columns are not below the " + std::to_string(m.fine_count) + " fine tetrahedra", "entries"),
+                          "columns are not below the " + std::to_string(m.fine_count) + " fine tetrahedra",
+                          "entries"),
              kGroup + "/columns");
     if (unordered.any())
         fail(ErrorCode::invalid_data,

@@ -17,7 +17,9 @@ std::uint64_t saturating_product(std::uint64_t a, std::uint64_t b) {
     return __builtin_mul_overflow(a, b, &product) ? kSaturated : product;
 }
 
-void hash_number(Sha256& hash, std::uint64_t number) { hash.update(&number, sizeof number); }
+void hash_number(Sha256& hash, std::uint64_t number) {
+    hash.update(&number, sizeof number);
+}
 
 void hash_text(Sha256& hash, const std::string& text) {
     hash_number(hash, text.size());
@@ -28,15 +30,17 @@ void hash_value(Sha256& hash, const Value& value) {
     hash_text(hash, to_string(value.type));
     hash_number(hash, value.element_bytes);
     hash_number(hash, value.extents.size());
-    for (const std::uint64_t extent : value.extents) hash_number(hash, extent);
+    for (const std::uint64_t extent : value.extents)
+        hash_number(hash, extent);
     hash.update(value.bytes.data(), value.bytes.size());
 }
 
 }  // namespace
 
 const char* to_string(ScalarType type) {
-    static constexpr std::array<const char*, 11> kNames{"int8",   "uint8",  "int16",   "uint16",  "int32", "uint32",
-                                                        "int64",  "uint64", "float32", "float64", "text"};
+    static constexpr std::array<const char*, 11> kNames{"int8",    "uint8",   "int16", "uint16",
+                                                        "int32",   "uint32",  "int64", "uint64",
+                                                        "float32", "float64", "text"};
     return kNames[static_cast<std::size_t>(type)];
 }
 
@@ -47,16 +51,20 @@ std::size_t size_of(ScalarType type) {
 
 std::uint64_t Value::count() const {
     std::uint64_t product = 1;
-    for (const std::uint64_t extent : extents) product = saturating_product(product, extent);
+    for (const std::uint64_t extent : extents)
+        product = saturating_product(product, extent);
     return product;
 }
 
-std::uint64_t Value::byte_count() const { return saturating_product(count(), element_bytes); }
+std::uint64_t Value::byte_count() const {
+    return saturating_product(count(), element_bytes);
+}
 
 std::string Value::shape_text() const {
     std::string text = to_string(type);
     if (extents.empty()) return text + " scalar";
-    for (std::size_t i = 0; i < extents.size(); ++i) text += (i == 0 ? " [" : ", ") + std::to_string(extents[i]);
+    for (std::size_t i = 0; i < extents.size(); ++i)
+        text += (i == 0 ? " [" : ", ") + std::to_string(extents[i]);
     return text + "]";
 }
 
@@ -74,7 +82,8 @@ Value text_value(const std::string& text) {
 Value text_array(const std::vector<std::string>& texts) {
     Value value;
     value.type = ScalarType::text;
-    for (const std::string& text : texts) value.element_bytes = std::max(value.element_bytes, text.size());
+    for (const std::string& text : texts)
+        value.element_bytes = std::max(value.element_bytes, text.size());
     value.extents = {texts.size()};
     value.storage.resize(texts.size() * value.element_bytes);
     for (std::size_t i = 0; i < texts.size(); ++i)
@@ -83,7 +92,9 @@ Value text_array(const std::vector<std::string>& texts) {
     return value;
 }
 
-Node& Payload::add_group(const std::string& path) { return nodes[path]; }
+Node& Payload::add_group(const std::string& path) {
+    return nodes[path];
+}
 
 Node& Payload::add_dataset(const std::string& path, Value value, const std::string& units) {
     Node& node = nodes[path];

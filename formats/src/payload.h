@@ -39,9 +39,9 @@ constexpr ScalarType scalar_type_of() {
 /// writing, at the caller's arrays. Not copied, because `bytes` would keep looking at the original.
 struct Value {
     ScalarType type = ScalarType::u8;
-    std::size_t element_bytes = 1;         ///< text: its fixed length
-    std::vector<std::uint64_t> extents;    ///< empty: a scalar
-    std::span<const std::byte> bytes;      ///< empty until loaded
+    std::size_t element_bytes = 1;       ///< text: its fixed length
+    std::vector<std::uint64_t> extents;  ///< empty: a scalar
+    std::span<const std::byte> bytes;    ///< empty until loaded
     std::vector<std::byte> storage;
 
     Value() = default;
@@ -50,9 +50,9 @@ struct Value {
     Value(const Value&) = delete;
     Value& operator=(const Value&) = delete;
 
-    [[nodiscard]] std::uint64_t count() const;       ///< product of the extents; saturates
-    [[nodiscard]] std::uint64_t byte_count() const;  ///< saturates
-    [[nodiscard]] std::string shape_text() const;    ///< "float64 [8, 3]"
+    [[nodiscard]] std::uint64_t count() const;                    ///< product of the extents; saturates
+    [[nodiscard]] std::uint64_t byte_count() const;               ///< saturates
+    [[nodiscard]] std::string shape_text() const;                 ///< "float64 [8, 3]"
     [[nodiscard]] std::string text(std::size_t index = 0) const;  ///< precondition: text, loaded
 };
 
@@ -80,10 +80,10 @@ Value copy_of(std::span<const T> elements, std::vector<std::uint64_t> extents) {
 /// A group or a dataset.
 struct Node {
     bool is_group = true;
-    Value value;                              ///< datasets only
+    Value value;  ///< datasets only
     std::map<std::string, Value> attributes;
-    std::uint64_t bytes_on_disk = 0;          ///< header and stored data; set by the reader
-    bool known = false;                       ///< the format's description of this kind names it
+    std::uint64_t bytes_on_disk = 0;  ///< header and stored data; set by the reader
+    bool known = false;               ///< the format's description of this kind names it
 };
 
 /// What lies under /knead or /provenance, by absolute path. The order of the map is the order on disk and in

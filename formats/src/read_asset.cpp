@@ -19,7 +19,8 @@ const std::string kSurface = kAsset + "/surface";
 void check_material_palette_shape(Schema& schema, std::uint64_t tetrahedra) {
     schema.group(kAsset + "/material");
     schema.group(kPalette);
-    const std::uint64_t entries = schema.dataset(kPalette + "/youngs_modulus_pa", ScalarType::f64, {kAnyExtent}, "Pa");
+    const std::uint64_t entries =
+        schema.dataset(kPalette + "/youngs_modulus_pa", ScalarType::f64, {kAnyExtent}, "Pa");
     schema.dataset(kPalette + "/poissons_ratio", ScalarType::f64, {entries}, "1");
     schema.dataset(kPalette + "/density_kg_per_m3", ScalarType::f64, {entries}, "kg/m^3");
     schema.index_dataset(kPaletteIndex, {tetrahedra});
@@ -27,7 +28,8 @@ void check_material_palette_shape(Schema& schema, std::uint64_t tetrahedra) {
 
 void check_tool_set_shape(Schema& schema, const std::string& tool) {
     schema.group(tool);
-    for (const char* name : {"name", "shape", "contact"}) schema.text_attribute(tool, name);
+    for (const char* name : {"name", "shape", "contact"})
+        schema.text_attribute(tool, name);
     schema.dataset(tool + "/rest_position_m", ScalarType::f64, {3}, "m");
     schema.dataset(tool + "/rest_orientation_wxyz", ScalarType::f64, {4}, "1");
     schema.dataset(tool + "/nodes", ScalarType::u32, {kAnyExtent}, "1");
@@ -70,7 +72,8 @@ void take_palette(Schema& schema, Asset& asset) {
     const auto moduli = schema.take<double>(kPalette + "/youngs_modulus_pa");
     const auto ratios = schema.take<double>(kPalette + "/poissons_ratio");
     const auto densities = schema.take<double>(kPalette + "/density_kg_per_m3");
-    for (std::size_t i = 0; i < moduli.size(); ++i) asset.palette.push_back({moduli[i], ratios[i], densities[i]});
+    for (std::size_t i = 0; i < moduli.size(); ++i)
+        asset.palette.push_back({moduli[i], ratios[i], densities[i]});
     asset.palette_index = schema.take_index(kPaletteIndex);
 }
 
@@ -87,7 +90,8 @@ void check_asset_shape(Schema& schema) {
         schema.group(kTools);
         const auto tools = schema.children(kTools);
         schema.limit(tools.size(), schema.limits().max_names, "tools", kTools);
-        for (const std::string& tool : tools) check_tool_set_shape(schema, kTools + "/" + tool);
+        for (const std::string& tool : tools)
+            check_tool_set_shape(schema, kTools + "/" + tool);
     }
     if (schema.has(kGravity)) {
         schema.group(kGravity);
@@ -116,8 +120,10 @@ Asset take_asset(Schema& schema) {
     if (schema.has(kTools))
         for (const std::string& tool : schema.children(kTools))
             asset.tools.push_back(take_tool_set(schema, kTools + "/" + tool));
-    if (schema.has(kGravity)) asset.gravity_m_per_s2 = schema.take_one<Point>(kGravity + "/acceleration_m_per_s2");
-    if (schema.has(kDamping)) asset.damping_per_s = schema.take_one<double>(kDamping + "/mass_proportional_per_s");
+    if (schema.has(kGravity))
+        asset.gravity_m_per_s2 = schema.take_one<Point>(kGravity + "/acceleration_m_per_s2");
+    if (schema.has(kDamping))
+        asset.damping_per_s = schema.take_one<double>(kDamping + "/mass_proportional_per_s");
     if (schema.has(kSurface))
         asset.surface.triangles = schema.take<std::array<std::uint32_t, 3>>(kSurface + "/triangles");
     return asset;

@@ -15,12 +15,14 @@ void check_clustering_shape(Schema& schema, std::uint64_t tetrahedra) {
     schema.dataset(kClustering + "/bin_of_tetrahedron", ScalarType::u32, {tetrahedra}, "1");
     schema.dataset(kClustering + "/cluster_of_tetrahedron", ScalarType::u32, {tetrahedra}, "1");
     schema.group(kBins);
-    const std::uint64_t bins = schema.dataset(kBins + "/youngs_modulus_pa", ScalarType::f64, {kAnyExtent}, "Pa");
+    const std::uint64_t bins =
+        schema.dataset(kBins + "/youngs_modulus_pa", ScalarType::f64, {kAnyExtent}, "Pa");
     schema.limit(bins, tetrahedra, "bins", kBins);
     schema.dataset(kBins + "/poissons_ratio", ScalarType::f64, {bins}, "1");
     schema.dataset(kBins + "/density_kg_per_m3", ScalarType::f64, {bins}, "kg/m^3");
     schema.group(kClusters);
-    const std::uint64_t clusters = schema.dataset(kClusters + "/bin_of_cluster", ScalarType::u32, {kAnyExtent}, "1");
+    const std::uint64_t clusters =
+        schema.dataset(kClusters + "/bin_of_cluster", ScalarType::u32, {kAnyExtent}, "1");
     schema.limit(clusters, tetrahedra, "clusters", kClusters);
     schema.dataset(kClusters + "/barycentre_m", ScalarType::f64, {clusters, 3}, "m");
     schema.dataset(kClusters + "/volume_m3", ScalarType::f64, {clusters}, "m^3");

@@ -12,8 +12,8 @@ const std::string kRequests = kProvenance + "/requests";
 
 void check_same_length(Schema& schema, std::uint64_t a, std::uint64_t b, const std::string& path) {
     if (a != b)
-        schema.refuse(ErrorCode::wrong_extent, std::to_string(a) + " and " + std::to_string(b) + " entries side by side",
-                      path);
+        schema.refuse(ErrorCode::wrong_extent,
+                      std::to_string(a) + " and " + std::to_string(b) + " entries side by side", path);
 }
 
 }  // namespace
@@ -46,7 +46,8 @@ Provenance take_provenance(Schema& schema) {
     if (schema.has(kInputs)) {
         const auto roles = schema.take_texts(kInputs + "/roles");
         const auto hashes = schema.take_texts(kInputs + "/content_hashes");
-        for (std::size_t i = 0; i < roles.size(); ++i) provenance.inputs.emplace_back(roles[i], hashes[i]);
+        for (std::size_t i = 0; i < roles.size(); ++i)
+            provenance.inputs.emplace_back(roles[i], hashes[i]);
     }
     return provenance;
 }
@@ -57,7 +58,8 @@ std::vector<Asset::Request> take_requests(Schema& schema) {
     const auto groups = schema.take_texts(kRequests + "/groups");
     const auto keys = schema.take_texts(kRequests + "/scene_keys");
     const auto lines = schema.take<std::uint32_t>(kRequests + "/scene_lines");
-    for (std::size_t i = 0; i < groups.size(); ++i) requests.push_back({groups[i], keys[i], lines[i]});
+    for (std::size_t i = 0; i < groups.size(); ++i)
+        requests.push_back({groups[i], keys[i], lines[i]});
     return requests;
 }
 

@@ -12,8 +12,8 @@ namespace knead {
 /// The frame of every public reader: loads the file and lets `take` decode and validate it; messages of
 /// validate() get the file's name.
 template <class Take>
-auto read_kind(const std::filesystem::path& file, const ReadLimits& limits, std::initializer_list<FileKind> accepted,
-               Take&& take) {
+auto read_kind(const std::filesystem::path& file, const ReadLimits& limits,
+               std::initializer_list<FileKind> accepted, Take&& take) {
     return guarded(file.string(), [&] {
         LoadedFile loaded = load_file(file, limits, accepted);
         try {

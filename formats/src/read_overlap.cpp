@@ -14,7 +14,8 @@ void check_overlap_shape(Schema& schema) {
     schema.number_attribute(kOverlap, "fine_count", ScalarType::u32);
     schema.number_attribute(kOverlap, "coarse_count", ScalarType::u32);
     const std::uint64_t rows = schema.dataset(kOverlap + "/row_offsets", ScalarType::u64, {kAnyExtent}, "1");
-    schema.limit(rows == 0 ? 0 : rows - 1, limits.max_tetrahedra, "coarse tetrahedra", kOverlap + "/row_offsets");
+    schema.limit(rows == 0 ? 0 : rows - 1, limits.max_tetrahedra, "coarse tetrahedra",
+                 kOverlap + "/row_offsets");
     const std::uint64_t entries = schema.dataset(kOverlap + "/columns", ScalarType::u32, {kAnyExtent}, "1");
     schema.limit(entries, limits.max_overlap_entries, "entries", kOverlap + "/columns");
     schema.dataset(kOverlap + "/volumes_m3", ScalarType::f64, {entries}, "m^3");

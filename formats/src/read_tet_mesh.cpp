@@ -15,13 +15,13 @@ const std::string kCellArrays = kMesh + "/cell_arrays";
 std::uint64_t check_mesh_shape(Schema& schema, const std::string& group) {
     schema.group(group);
     const std::string at_nodes = group + "/nodes_m", at_tetrahedra = group + "/tetrahedra";
-    schema.limit(schema.dataset(at_nodes, ScalarType::f64, {kAnyExtent, 3}, "m"), schema.limits().max_nodes, "nodes",
-                 at_nodes);
+    schema.limit(schema.dataset(at_nodes, ScalarType::f64, {kAnyExtent, 3}, "m"), schema.limits().max_nodes,
+                 "nodes", at_nodes);
     const std::uint64_t indices = schema.dataset(at_tetrahedra, ScalarType::i32, {kAnyExtent}, "1");
     schema.limit(indices / 4, schema.limits().max_tetrahedra, "tetrahedra", at_tetrahedra);
     if (indices % 4 != 0)
-        schema.refuse(ErrorCode::wrong_extent, std::to_string(indices) + " indices are not four for each tetrahedron",
-                      at_tetrahedra);
+        schema.refuse(ErrorCode::wrong_extent,
+                      std::to_string(indices) + " indices are not four for each tetrahedron", at_tetrahedra);
     return indices / 4;
 }
 

@@ -23,25 +23,29 @@ void Schema::check_units(const Node& node, const std::string& units, const std::
     const std::string where = path + "@units";
     if (found == node.attributes.end()) refuse(ErrorCode::missing, "the attribute is not in the file", where);
     const Value& value = found->second;
-    if (value.type != ScalarType::text) refuse(ErrorCode::wrong_type, "is " + value.shape_text() + ", not text", where);
-    if (!value.extents.empty()) refuse(ErrorCode::wrong_extent, "is " + value.shape_text() + ", not one text", where);
+    if (value.type != ScalarType::text)
+        refuse(ErrorCode::wrong_type, "is " + value.shape_text() + ", not text", where);
+    if (!value.extents.empty())
+        refuse(ErrorCode::wrong_extent, "is " + value.shape_text() + ", not one text", where);
     if (value.text() != units)
         refuse(ErrorCode::invalid_data, "is \"" + value.text() + "\" instead of \"" + units + "\"", where);
 }
 
-std::uint64_t Schema::dataset(const std::string& path, ScalarType type, const std::vector<std::uint64_t>& extents,
-                              const std::string& units) {
+std::uint64_t Schema::dataset(const std::string& path, ScalarType type,
+                              const std::vector<std::uint64_t>& extents, const std::string& units) {
     Node& node = find(path);
     if (node.is_group) refuse(ErrorCode::wrong_type, "is a group, not a dataset", path);
     const Value& value = node.value;
-    if (value.type != type) refuse(ErrorCode::wrong_type, "is " + value.shape_text() + ", not " + to_string(type), path);
+    if (value.type != type)
+        refuse(ErrorCode::wrong_type, "is " + value.shape_text() + ", not " + to_string(type), path);
     bool fits = value.extents.size() == extents.size();
     for (std::size_t i = 0; fits && i < extents.size(); ++i)
         fits = extents[i] == kAnyExtent || extents[i] == value.extents[i];
     if (!fits) {
         std::string wanted;
         for (const std::uint64_t e : extents)
-            wanted += (wanted.empty() ? "[" : ", ") + (e == kAnyExtent ? std::string("any") : std::to_string(e));
+            wanted +=
+                (wanted.empty() ? "[" : ", ") + (e == kAnyExtent ? std::string("any") : std::to_string(e));
         refuse(ErrorCode::wrong_extent, "is " + value.shape_text() + ", not " + wanted + "]", path);
     }
     check_units(node, units, path);
@@ -66,8 +70,10 @@ const Value& Schema::attribute(const std::string& path, const std::string& name,
     const std::string where = path + "@" + name;
     if (found == node.attributes.end()) refuse(ErrorCode::missing, "the attribute is not in the file", where);
     const Value& value = found->second;
-    if (value.type != type) refuse(ErrorCode::wrong_type, "is " + value.shape_text() + ", not " + to_string(type), where);
-    if (!value.extents.empty()) refuse(ErrorCode::wrong_extent, "is " + value.shape_text() + ", not a scalar", where);
+    if (value.type != type)
+        refuse(ErrorCode::wrong_type, "is " + value.shape_text() + ", not " + to_string(type), where);
+    if (!value.extents.empty())
+        refuse(ErrorCode::wrong_extent, "is " + value.shape_text() + ", not a scalar", where);
     return value;
 }
 
@@ -84,20 +90,22 @@ std::vector<std::string> Schema::children(const std::string& group) const {
     const std::string prefix = group + "/";
     for (auto i = payload_.nodes.lower_bound(prefix); i != payload_.nodes.end(); ++i) {
         if (i->first.compare(0, prefix.size(), prefix) != 0) break;
-        if (i->first.find('/', prefix.size()) == std::string::npos) names.push_back(i->first.substr(prefix.size()));
+        if (i->first.find('/', prefix.size()) == std::string::npos)
+            names.push_back(i->first.substr(prefix.size()));
     }
     return names;
 }
 
 void Schema::limit(std::uint64_t found, std::uint64_t most, const char* what, const std::string& path) const {
     if (found > most)
-        refuse(ErrorCode::too_large, std::to_string(found) + " " + what + " pass the limit of " + std::to_string(most),
-               path);
+        refuse(ErrorCode::too_large,
+               std::to_string(found) + " " + what + " pass the limit of " + std::to_string(most), path);
 }
 
 void Schema::refuse_unknown() const {
     for (const auto& [path, node] : payload_.nodes)
-        if (!node.known) refuse(ErrorCode::invalid_data, "does not belong in a file of this kind and version", path);
+        if (!node.known)
+            refuse(ErrorCode::invalid_data, "does not belong in a file of this kind and version", path);
 }
 
 std::vector<std::uint32_t> Schema::take_index(const std::string& path) {
@@ -114,7 +122,8 @@ std::vector<std::uint32_t> Schema::take_index(const std::string& path) {
 std::vector<std::string> Schema::take_texts(const std::string& path) {
     const Value& value = payload_.nodes.at(path).value;
     std::vector<std::string> texts;
-    for (std::size_t i = 0; i < value.count(); ++i) texts.push_back(value.text(i));
+    for (std::size_t i = 0; i < value.count(); ++i)
+        texts.push_back(value.text(i));
     return texts;
 }
 

@@ -28,7 +28,8 @@ void Sha256::absorb(const std::uint8_t* blocks, std::size_t count) {
     using std::rotr;
     std::array<std::uint32_t, 64> w;
     for (; count > 0; --count, blocks += 64) {
-        for (std::size_t t = 0; t < 16; ++t) w[t] = big_endian(blocks + 4 * t);
+        for (std::size_t t = 0; t < 16; ++t)
+            w[t] = big_endian(blocks + 4 * t);
         for (std::size_t t = 16; t < 64; ++t) {
             const std::uint32_t s0 = rotr(w[t - 15], 7) ^ rotr(w[t - 15], 18) ^ (w[t - 15] >> 3);
             const std::uint32_t s1 = rotr(w[t - 2], 17) ^ rotr(w[t - 2], 19) ^ (w[t - 2] >> 10);
@@ -42,7 +43,8 @@ void Sha256::absorb(const std::uint8_t* blocks, std::size_t count) {
             h = g, g = f, f = e, e = d + t1, d = c, c = b, b = a, a = t1 + t2;
         }
         const std::array<std::uint32_t, 8> sum{a, b, c, d, e, f, g, h};
-        for (std::size_t i = 0; i < 8; ++i) state_[i] += sum[i];
+        for (std::size_t i = 0; i < 8; ++i)
+            state_[i] += sum[i];
     }
 }
 
@@ -70,11 +72,13 @@ std::string Sha256::hex_digest() {
     const std::array<std::uint8_t, 64> zeros{};
     update(zeros.data(), (filled_ <= 56 ? 56 : 120) - filled_);
     std::array<std::uint8_t, 8> length;
-    for (std::size_t i = 0; i < 8; ++i) length[i] = static_cast<std::uint8_t>(bits >> (56 - 8 * i));
+    for (std::size_t i = 0; i < 8; ++i)
+        length[i] = static_cast<std::uint8_t>(bits >> (56 - 8 * i));
     update(length.data(), length.size());
     std::string hex;
     for (const std::uint32_t word : state_)
-        for (int shift = 28; shift >= 0; shift -= 4) hex += "0123456789abcdef"[word >> shift & 15];
+        for (int shift = 28; shift >= 0; shift -= 4)
+            hex += "0123456789abcdef"[word >> shift & 15];
     return hex;
 }
 

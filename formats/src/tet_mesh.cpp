@@ -15,14 +15,15 @@ void check_regions(const Regions& regions, std::size_t tetrahedron_count) {
     if (index.empty() && regions.names.empty()) return;
     if (index.size() != tetrahedron_count)
         fail(ErrorCode::invalid_data,
-             std::to_string(index.size()) + " entries for " + std::to_string(tetrahedron_count) + " tetrahedra",
+             std::to_string(index.size()) + " entries for " + std::to_string(tetrahedron_count) +
+                 " tetrahedra",
              where + "/region_of_tetrahedron");
     Offenders bad;
     for (std::size_t i = 0; i < index.size(); ++i)
         if (index[i] >= regions.names.size()) bad.add(i);
     if (bad.any())
-        fail(ErrorCode::invalid_data,
-             bad.text(index.size(), "entries name no region", "elements"), where + "/region_of_tetrahedron");
+        fail(ErrorCode::invalid_data, bad.text(index.size(), "entries name no region", "elements"),
+             where + "/region_of_tetrahedron");
 }
 
 void check_cell_arrays(const std::vector<CellArray>& arrays, std::size_t tetrahedron_count) {
@@ -58,7 +59,8 @@ double signed_volume_m3(const TetMesh& mesh, std::size_t tetrahedron) {
 Point barycentre_m(const TetMesh& mesh, std::size_t tetrahedron) {
     Point sum{};
     for (const std::uint32_t node : mesh.tetrahedra[tetrahedron])
-        for (int axis = 0; axis < 3; ++axis) sum[axis] += 0.25 * mesh.nodes_m[node][axis];
+        for (int axis = 0; axis < 3; ++axis)
+            sum[axis] += 0.25 * mesh.nodes_m[node][axis];
     return sum;
 }
 

@@ -14,7 +14,8 @@ namespace knead {
 struct Simulation::Impl {
     Impl(const Asset& asset, const SimulationConfig& config)
         : stepper(asset, config),
-          rest_pose{asset.tools[config.tool].rest_position_m, asset.tools[config.tool].rest_orientation_wxyz} {}
+          rest_pose{asset.tools[config.tool].rest_position_m,
+                    asset.tools[config.tool].rest_orientation_wxyz} {}
 
     core::Stepper stepper;
     Pose rest_pose;
@@ -35,13 +36,21 @@ Result<Simulation> Simulation::create(const Asset& asset, const SimulationConfig
     }
 }
 
-StepResult Simulation::step(const Pose& pose, double dt_s) noexcept { return impl_->stepper.step(pose, dt_s); }
+StepResult Simulation::step(const Pose& pose, double dt_s) noexcept {
+    return impl_->stepper.step(pose, dt_s);
+}
 
-void Simulation::reset() noexcept { impl_->stepper.reset(); }
+void Simulation::reset() noexcept {
+    impl_->stepper.reset();
+}
 
-std::size_t Simulation::node_count() const noexcept { return impl_->stepper.model().rest_m.size(); }
+std::size_t Simulation::node_count() const noexcept {
+    return impl_->stepper.model().rest_m.size();
+}
 
-std::size_t Simulation::tetrahedron_count() const noexcept { return impl_->stepper.model().elements.size(); }
+std::size_t Simulation::tetrahedron_count() const noexcept {
+    return impl_->stepper.model().elements.size();
+}
 
 const double* Simulation::positions_m() const noexcept {
     static_assert(std::is_same_v<core::Real, double> && sizeof(core::Vec) == 3 * sizeof(double),
@@ -49,6 +58,8 @@ const double* Simulation::positions_m() const noexcept {
     return impl_->stepper.positions_m().front().data();
 }
 
-Pose Simulation::tool_rest_pose() const noexcept { return impl_->rest_pose; }
+Pose Simulation::tool_rest_pose() const noexcept {
+    return impl_->rest_pose;
+}
 
 }  // namespace knead

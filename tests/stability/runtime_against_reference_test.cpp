@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,10 @@ struct Press {
     int scenario;
     std::uint32_t cells;
 };
+
+void PrintTo(const Press& press, std::ostream* out) {
+    *out << "scenario " << press.scenario << ", n = " << press.cells;
+}
 
 /// Where the runtime comes to rest under the plate.
 struct Rest {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <ostream>
 #include <string>
 
 #include "material/scenario.h"
@@ -35,6 +36,10 @@ struct Row {
     double force_n, paper_force_n;
     double homogenised_percent, paper_homogenised_percent;
 };
+
+void PrintTo(const Row& row, std::ostream* out) {
+    *out << "scenario " << row.scenario;
+}
 
 constexpr std::array<Row, 9> kTable{{{1, 19.79, 20.71, 18.9, 19.6},
                                      {2, 19.74, 20.82, 18.5, 17.6},

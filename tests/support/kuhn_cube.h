@@ -37,15 +37,18 @@ inline TetMesh kuhn_box(std::uint32_t nx, std::uint32_t ny, std::uint32_t nz, co
 }
 
 /// The paper's cube: n^3 cells, side 0.1 m.
-inline TetMesh kuhn_cube(std::uint32_t n, double side_m = 0.1) { return kuhn_box(n, n, n, {side_m, side_m, side_m}); }
+inline TetMesh kuhn_cube(std::uint32_t n, double side_m = 0.1) {
+    return kuhn_box(n, n, n, {side_m, side_m, side_m});
+}
 
-/// Moves every node by at most `share` of a cell's side in each direction, so that no two tetrahedra are alike.
-/// Below about 0.15 every volume stays positive.
+/// Moves every node by at most `share` of a cell's side in each direction, so that no two tetrahedra are
+/// alike. Below about 0.15 every volume stays positive.
 inline void jitter(TetMesh& mesh, double cell_side_m, double share, std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     for (Point& node : mesh.nodes_m)
         for (double& coordinate : node)
-            coordinate += cell_side_m * share * (2.0 * static_cast<double>(engine() >> 11U) * 0x1.0p-53 - 1.0);
+            coordinate +=
+                cell_side_m * share * (2.0 * static_cast<double>(engine() >> 11U) * 0x1.0p-53 - 1.0);
 }
 
 }  // namespace knead::test

@@ -33,10 +33,11 @@ struct AggregateResult {
 
 /// Phase P3, Algorithm 1: gathers the elasticity of every bin around the barycentres of its clusters.
 ///
-/// Bin after bin, cluster after cluster (in index order): starts at the tetrahedron that contains the cluster's
-/// barycentre (none: the nearest), grows over faces by the lowest interest, and gives the bin's elasticity to
-/// each tetrahedron not yet modified until the cluster's volume is reached. Modified tetrahedra are crossed and
-/// not counted. The last bin takes the rest. Only values move; the mesh stays. Ties go to the lower index.
+/// Bin after bin, cluster after cluster (in index order): starts at the tetrahedron that contains the
+/// cluster's barycentre (none: the nearest), grows over faces by the lowest interest, and gives the bin's
+/// elasticity to each tetrahedron not yet modified until the cluster's volume is reached. Modified tetrahedra
+/// are crossed and not counted. The last bin takes the rest. Only values move; the mesh stays. Ties go to the
+/// lower index.
 /// @param object valid
 /// Source: paper section 3.2, "Aggregation", Algorithm 1.
 [[nodiscard]] AggregateResult aggregate(const ClusteredObject& object, const AggregateOptions& options);

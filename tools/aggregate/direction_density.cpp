@@ -46,13 +46,16 @@ std::vector<Point> cell_centres() {
                 centre[(axis + 1) % 3] = middle(u);
                 centre[(axis + 2) % 3] = middle(v);
                 const double length = std::hypot(centre[0], centre[1], centre[2]);
-                for (double& coordinate : centre) coordinate /= length;
+                for (double& coordinate : centre)
+                    coordinate /= length;
                 centres.push_back(centre);
             }
     return centres;
 }
 
-bool has_direction(const Point& offset) { return offset[0] != 0 || offset[1] != 0 || offset[2] != 0; }
+bool has_direction(const Point& offset) {
+    return offset[0] != 0 || offset[1] != 0 || offset[2] != 0;
+}
 
 }  // namespace
 
@@ -69,12 +72,14 @@ void DirectionDensity::finish() {
         if (cell_[from] <= 0) continue;
         for (std::size_t to = 0; to < kCells; ++to) {
             double cosine = 0;
-            for (int axis = 0; axis < 3; ++axis) cosine += centres[from][axis] * centres[to][axis];
+            for (int axis = 0; axis < 3; ++axis)
+                cosine += centres[from][axis] * centres[to][axis];
             smooth[to] += cell_[from] * std::exp(kKappa * (cosine - 1.0));
         }
     }
     const double largest = *std::max_element(smooth.begin(), smooth.end());
-    for (std::size_t cell = 0; cell < kCells; ++cell) cell_[cell] = largest > 0 ? smooth[cell] / largest : 1.0;
+    for (std::size_t cell = 0; cell < kCells; ++cell)
+        cell_[cell] = largest > 0 ? smooth[cell] / largest : 1.0;
 }
 
 double DirectionDensity::relative(const Point& offset_m) const {

@@ -8,9 +8,13 @@
 namespace knead::tools {
 namespace {
 
-Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point difference(const Point& a, const Point& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 
-Eigen::Vector3d vector(const Point& a) { return {a[0], a[1], a[2]}; }
+Eigen::Vector3d vector(const Point& a) {
+    return {a[0], a[1], a[2]};
+}
 
 }  // namespace
 
@@ -25,12 +29,14 @@ Interest::Interest(InterestKind kind, double weight, const TetMesh& mesh, const 
 
 void Interest::measure_directions(const TetMesh& mesh, const ClusterShape& cluster) {
     for (const std::uint32_t tetrahedron : cluster.tetrahedra)
-        directions_.add(difference(barycentre_m(mesh, tetrahedron), centre_m_), signed_volume_m3(mesh, tetrahedron));
+        directions_.add(difference(barycentre_m(mesh, tetrahedron), centre_m_),
+                        signed_volume_m3(mesh, tetrahedron));
     directions_.finish();
 }
 
-/// Covariance of the solid cluster about its barycentre: that of the tetrahedra's barycentres plus that of each
-/// tetrahedron about its own (1/20 of the sum over its corners), which keeps it regular for a single one.
+/// Covariance of the solid cluster about its barycentre: that of the tetrahedra's barycentres plus that of
+/// each tetrahedron about its own (1/20 of the sum over its corners), which keeps it regular for a single
+/// one.
 void Interest::measure_ellipsoid(const TetMesh& mesh, const ClusterShape& cluster) {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     for (const std::uint32_t tetrahedron : cluster.tetrahedra) {
@@ -50,10 +56,14 @@ double Interest::operator()(const Point& barycentre_m, bool member) const {
     const Point offset = difference(barycentre_m, centre_m_);
     const double distance = std::hypot(offset[0], offset[1], offset[2]) / radius_m_;
     switch (kind_) {
-        case InterestKind::combined: return distance + weight_ * (1.0 - directions_.relative(offset));
-        case InterestKind::distance: return distance;
-        case InterestKind::direction: return 1.0 - directions_.relative(offset);
-        case InterestKind::membership: return distance + (member ? 0.0 : weight_);
+        case InterestKind::combined:
+            return distance + weight_ * (1.0 - directions_.relative(offset));
+        case InterestKind::distance:
+            return distance;
+        case InterestKind::direction:
+            return 1.0 - directions_.relative(offset);
+        case InterestKind::membership:
+            return distance + (member ? 0.0 : weight_);
         case InterestKind::mahalanobis: {
             const Eigen::Vector3d arm = vector(offset);
             return std::sqrt(arm.dot(inverse_covariance_ * arm));

@@ -44,7 +44,7 @@ class Interest {
     double weight_;
     Point centre_m_;
     double radius_m_;
-    DirectionDensity directions_;                                  ///< combined and direction only
+    DirectionDensity directions_;                                   ///< combined and direction only
     Eigen::Matrix3d inverse_covariance_ = Eigen::Matrix3d::Zero();  ///< mahalanobis only
 };
 

@@ -32,7 +32,8 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.add_option("CLUSTERED", arguments.clustered, "mesh with material and clustering")
         ->required()
         ->group("Inputs");
-    app.add_option("-o,--output", arguments.output, "mesh with aggregated material; replaced only once complete")
+    app.add_option("-o,--output", arguments.output,
+                   "mesh with aggregated material; replaced only once complete")
         ->required()
         ->type_name("FILE");
     app.add_option("--order", arguments.order, "which bin grows first; the last one takes the rest")
@@ -81,14 +82,15 @@ ExitCode run(ToolContext& context, const Arguments& arguments) {
     context.set_output(arguments.output);
     context.add_input(arguments.clustered);
     Provenance provenance =
-        context.provenance({"--order", arguments.order, "--interest", arguments.interest, "--direction-weight",
-                            fmt::format("{}", arguments.direction_weight)});
-    provenance.inputs.emplace_back("clustered", value_or_throw(read_header(arguments.clustered)).content_hash);
+        context.provenance({"--order", arguments.order, "--interest", arguments.interest,
+                            "--direction-weight", fmt::format("{}", arguments.direction_weight)});
+    provenance.inputs.emplace_back("clustered",
+                                   value_or_throw(read_header(arguments.clustered)).content_hash);
     const ClusteredObject object = value_or_throw(read_clustering(arguments.clustered));
 
     const auto aggregate_start = std::chrono::steady_clock::now();
-    const AggregateResult result =
-        aggregate(object, {kOrders.at(arguments.order), kInterests.at(arguments.interest), arguments.direction_weight});
+    const AggregateResult result = aggregate(
+        object, {kOrders.at(arguments.order), kInterests.at(arguments.interest), arguments.direction_weight});
     const double aggregate_s = seconds_since(aggregate_start);
     value_or_throw(write_material(arguments.output, {object.mesh, result.material}, provenance));
     report(context, object, result, aggregate_s, seconds_since(start));
@@ -101,10 +103,11 @@ ExitCode run(ToolContext& context, const Arguments& arguments) {
 int main(int argc, char** argv) {
     using namespace knead::tools;
     Arguments arguments;
-    const ToolInfo info{.name = "knead-aggregate",
-                        .purpose = "gather the elasticity of each bin around the barycentres of its clusters.",
-                        .example = "knead-aggregate cube.clusters.hdf -o cube.aggregated.hdf",
-                        .libraries = {}};
+    const ToolInfo info{
+        .name = "knead-aggregate",
+        .purpose = "gather the elasticity of each bin around the barycentres of its clusters.",
+        .example = "knead-aggregate cube.clusters.hdf -o cube.aggregated.hdf",
+        .libraries = {}};
     return run_tool(
         argc, argv, info, [&](CLI::App& app) { declare(app, arguments); },
         [&](ToolContext& context) { return run(context, arguments); });

@@ -40,11 +40,13 @@ TetrahedronTree::TetrahedronTree(const TetMesh& mesh)
       order_(mesh.tetrahedra.size()),
       place_(mesh.tetrahedra.size()),
       removed_(mesh.tetrahedra.size(), false) {
-    for (std::size_t t = 0; t < barycentre_m_.size(); ++t) barycentre_m_[t] = barycentre_m(mesh, t);
+    for (std::size_t t = 0; t < barycentre_m_.size(); ++t)
+        barycentre_m_[t] = barycentre_m(mesh, t);
     std::iota(order_.begin(), order_.end(), 0U);
     cells_.reserve(4 * order_.size() / kLeafSize + 1);
     build(0, static_cast<std::uint32_t>(order_.size()));
-    for (std::uint32_t place = 0; place < order_.size(); ++place) place_[order_[place]] = place;
+    for (std::uint32_t place = 0; place < order_.size(); ++place)
+        place_[order_[place]] = place;
 }
 
 void TetrahedronTree::fit(Cell& cell) const {
@@ -75,7 +77,8 @@ std::uint32_t TetrahedronTree::build(std::uint32_t begin, std::uint32_t end) {
         const std::uint32_t middle = begin + (end - begin) / 2;
         std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
                          [this, widest](std::uint32_t a, std::uint32_t b) {
-                             return std::tie(barycentre_m_[a][widest], a) < std::tie(barycentre_m_[b][widest], b);
+                             return std::tie(barycentre_m_[a][widest], a) <
+                                    std::tie(barycentre_m_[b][widest], b);
                          });
         build(begin, middle);
         cell.right_child = build(middle, end);
@@ -87,7 +90,8 @@ std::uint32_t TetrahedronTree::build(std::uint32_t begin, std::uint32_t end) {
 bool TetrahedronTree::contains(std::uint32_t tetrahedron, const Point& point) const {
     const double least = -kInsideTolerance * signed_volume_m3(mesh_, tetrahedron);
     std::array<Point, 4> corners{};
-    for (int i = 0; i < 4; ++i) corners[i] = mesh_.nodes_m[mesh_.tetrahedra[tetrahedron][i]];
+    for (int i = 0; i < 4; ++i)
+        corners[i] = mesh_.nodes_m[mesh_.tetrahedra[tetrahedron][i]];
     for (int i = 0; i < 4; ++i) {
         std::array<Point, 4> part = corners;
         part[i] = point;
@@ -147,7 +151,8 @@ void TetrahedronTree::search_nearest(std::uint32_t index, const Point& point, Ne
         return squared_distance_to_box(point, cells_[child].barycentres.low, cells_[child].barycentres.high);
     };
     if (distance_to(children[1]) < distance_to(children[0])) std::swap(children[0], children[1]);
-    for (const std::uint32_t child : children) search_nearest(child, point, best);
+    for (const std::uint32_t child : children)
+        search_nearest(child, point, best);
 }
 
 void TetrahedronTree::remove(std::uint32_t tetrahedron) {

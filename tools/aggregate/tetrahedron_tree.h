@@ -36,9 +36,9 @@ class TetrahedronTree {
         Point high;
     };
     struct Cell {
-        Box barycentres;           ///< of all tetrahedra of the cell
-        Box tetrahedra;            ///< the same, with their full extent
-        std::uint32_t begin = 0;   ///< in order_
+        Box barycentres;          ///< of all tetrahedra of the cell
+        Box tetrahedra;           ///< the same, with their full extent
+        std::uint32_t begin = 0;  ///< in order_
         std::uint32_t end = 0;
         std::uint32_t right_child = 0;  ///< 0: a leaf; the left child is the next cell
         std::uint32_t present = 0;      ///< tetrahedra not removed
@@ -56,10 +56,10 @@ class TetrahedronTree {
     [[nodiscard]] bool contains(std::uint32_t tetrahedron, const Point& point) const;
 
     const TetMesh& mesh_;
-    std::vector<Point> barycentre_m_;       ///< [tetrahedra]
-    std::vector<std::uint32_t> order_;      ///< tetrahedra in the order of the leaves
-    std::vector<std::uint32_t> place_;      ///< [tetrahedra] where each stands in order_
-    std::vector<bool> removed_;             ///< [tetrahedra]
+    std::vector<Point> barycentre_m_;   ///< [tetrahedra]
+    std::vector<std::uint32_t> order_;  ///< tetrahedra in the order of the leaves
+    std::vector<std::uint32_t> place_;  ///< [tetrahedra] where each stands in order_
+    std::vector<bool> removed_;         ///< [tetrahedra]
     std::vector<Cell> cells_;
 };
 

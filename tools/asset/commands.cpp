@@ -23,13 +23,15 @@ void apply(const std::vector<std::string>& texts, double Tolerance::*member, Com
         if (equals == std::string::npos)
             options.tolerance.*member = parse_tolerance(text, text);
         else
-            options.dataset_tolerance[text.substr(0, equals)].*member = parse_tolerance(text.substr(equals + 1), text);
+            options.dataset_tolerance[text.substr(0, equals)].*member =
+                parse_tolerance(text.substr(equals + 1), text);
     }
 }
 
 }  // namespace
 
-CompareOptions compare_options(const std::vector<std::string>& absolute, const std::vector<std::string>& relative) {
+CompareOptions compare_options(const std::vector<std::string>& absolute,
+                               const std::vector<std::string>& relative) {
     CompareOptions options;
     apply(absolute, &Tolerance::absolute, options);
     apply(relative, &Tolerance::relative, options);
@@ -38,21 +40,36 @@ CompareOptions compare_options(const std::vector<std::string>& absolute, const s
 
 const char* name_of(ErrorCode code) {
     switch (code) {
-        case ErrorCode::io_error: return "io_error";
-        case ErrorCode::not_knead: return "not_knead";
-        case ErrorCode::version_unsupported: return "version_unsupported";
-        case ErrorCode::feature_unsupported: return "feature_unsupported";
-        case ErrorCode::wrong_kind: return "wrong_kind";
-        case ErrorCode::missing: return "missing";
-        case ErrorCode::wrong_type: return "wrong_type";
-        case ErrorCode::wrong_extent: return "wrong_extent";
-        case ErrorCode::too_large: return "too_large";
-        case ErrorCode::forbidden: return "forbidden";
-        case ErrorCode::corrupt: return "corrupt";
-        case ErrorCode::invalid_data: return "invalid_data";
-        case ErrorCode::cannot_write: return "cannot_write";
-        case ErrorCode::out_of_memory: return "out_of_memory";
-        case ErrorCode::invalid_argument: return "invalid_argument";
+        case ErrorCode::io_error:
+            return "io_error";
+        case ErrorCode::not_knead:
+            return "not_knead";
+        case ErrorCode::version_unsupported:
+            return "version_unsupported";
+        case ErrorCode::feature_unsupported:
+            return "feature_unsupported";
+        case ErrorCode::wrong_kind:
+            return "wrong_kind";
+        case ErrorCode::missing:
+            return "missing";
+        case ErrorCode::wrong_type:
+            return "wrong_type";
+        case ErrorCode::wrong_extent:
+            return "wrong_extent";
+        case ErrorCode::too_large:
+            return "too_large";
+        case ErrorCode::forbidden:
+            return "forbidden";
+        case ErrorCode::corrupt:
+            return "corrupt";
+        case ErrorCode::invalid_data:
+            return "invalid_data";
+        case ErrorCode::cannot_write:
+            return "cannot_write";
+        case ErrorCode::out_of_memory:
+            return "out_of_memory";
+        case ErrorCode::invalid_argument:
+            return "invalid_argument";
     }
     return "unknown";
 }

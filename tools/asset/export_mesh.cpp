@@ -2,6 +2,8 @@
 #include "asset/export_mesh.h"
 
 #include <charconv>
+#include <set>
+#include <utility>
 
 namespace knead::tools {
 namespace {
@@ -33,6 +35,26 @@ void add_material(ExportMesh& mesh, const Material& material) {
     mesh.fields.push_back({"density_kg_per_m3", material.density_kg_per_m3});
 }
 
+/// VTK's reader crashes on two arrays of one name. Arrays that came with the mesh stand first and give way.
+ExportMesh with_unique_names(ExportMesh mesh) {
+    std::set<std::string> taken;
+    for (std::size_t i = mesh.fields.size(); i-- > 0;) {
+        const std::string name = mesh.fields[i].name;
+        for (int k = 2; !taken.insert(mesh.fields[i].name).second; ++k)
+            mesh.fields[i].name = name + "_" + std::to_string(k);
+    }
+    return mesh;
+}
+
+ExportMesh raw_mesh(const TetMesh& mesh) {
+    ExportMesh out{mesh.nodes_m, mesh.tetrahedra, mesh.regions.names, mesh.regions.region_of_tetrahedron, {}};
+    for (const CellArray& array : mesh.cell_arrays)
+        out.fields.push_back({array.name, array.values});
+    if (!out.region_of_tetrahedron.empty())
+        out.fields.push_back(index_field("region", out.region_of_tetrahedron));
+    return out;
+}
+
 std::string xml_escaped(const std::string& text) {
     std::string escaped;
     for (const char c : text) {
@@ -51,16 +73,18 @@ std::string xml_escaped(const std::string& text) {
 /// A name between quotes in a line of a .msh file: neither quotes nor line ends fit there.
 std::string msh_name(const std::string& text) {
     std::string name;
-    for (const char c : text) name += (c == '"' || static_cast<unsigned char>(c) < 0x20) ? '_' : c;
+    for (const char c : text)
+        name += (c == '"' || static_cast<unsigned char>(c) < 0x20) ? '_' : c;
     return name;
 }
 
 void append_vtu_fields(std::string& text, const ExportMesh& mesh) {
     text += "<CellData>\n";
     for (const ExportField& field : mesh.fields) {
-        text += std::string("<DataArray type=\"") + (field.whole_numbers ? "UInt32" : "Float64") + "\" Name=\"" +
-                xml_escaped(field.name) + "\" format=\"ascii\">\n";
-        for (std::size_t i = 0; i < field.values.size(); ++i) append_value(text, field, i, '\n');
+        text += std::string("<DataArray type=\"") + (field.whole_numbers ? "UInt32" : "Float64") +
+                "\" Name=\"" + xml_escaped(field.name) + "\" format=\"ascii\">\n";
+        for (std::size_t i = 0; i < field.values.size(); ++i)
+            append_value(text, field, i, '\n');
         text += "</DataArray>\n";
     }
     text += "</CellData>\n";
@@ -70,13 +94,15 @@ void append_msh_elements(std::string& text, const ExportMesh& mesh) {
     text += "$Elements\n";
     append(text, mesh.tetrahedra.size(), '\n');
     for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
-        const std::uint64_t tag = mesh.region_of_tetrahedron.empty() ? 1 : mesh.region_of_tetrahedron[i] + 1ULL;
+        const std::uint64_t tag =
+            mesh.region_of_tetrahedron.empty() ? 1 : mesh.region_of_tetrahedron[i] + 1ULL;
         append(text, i + 1, ' ');
         append(text, kGmshTetrahedron, ' ');
         text += "2 ";
         append(text, tag, ' ');
         append(text, tag, ' ');
-        for (int k = 0; k < 4; ++k) append(text, mesh.tetrahedra[i][k] + 1ULL, k == 3 ? '\n' : ' ');
+        for (int k = 0; k < 4; ++k)
+            append(text, mesh.tetrahedra[i][k] + 1ULL, k == 3 ? '\n' : ' ');
     }
     text += "$EndElements\n";
 }
@@ -94,26 +120,23 @@ void append_msh_field(std::string& text, const ExportField& field) {
 }  // namespace
 
 ExportMesh export_mesh(const TetMesh& mesh) {
-    ExportMesh out{mesh.nodes_m, mesh.tetrahedra, mesh.regions.names, mesh.regions.region_of_tetrahedron, {}};
-    if (!out.region_of_tetrahedron.empty()) out.fields.push_back(index_field("region", out.region_of_tetrahedron));
-    for (const CellArray& array : mesh.cell_arrays) out.fields.push_back({array.name, array.values});
-    return out;
+    return with_unique_names(raw_mesh(mesh));
 }
 
 ExportMesh export_mesh(const MaterialObject& object) {
-    ExportMesh out = export_mesh(object.mesh);
+    ExportMesh out = raw_mesh(object.mesh);
     add_material(out, object.material);
     const auto& bin = object.material.bin_of_tetrahedron;
     if (!bin.empty()) out.fields.push_back(index_field("bin", bin));
-    return out;
+    return with_unique_names(std::move(out));
 }
 
 ExportMesh export_mesh(const ClusteredObject& object) {
-    ExportMesh out = export_mesh(object.mesh);
+    ExportMesh out = raw_mesh(object.mesh);
     add_material(out, object.material);
     out.fields.push_back(index_field("bin", object.clustering.bin_of_tetrahedron));
     out.fields.push_back(index_field("cluster", object.clustering.cluster_of_tetrahedron));
-    return out;
+    return with_unique_names(std::move(out));
 }
 
 ExportMesh export_mesh(const Asset& asset) {
@@ -131,19 +154,26 @@ ExportMesh export_mesh(const Asset& asset) {
 
 std::string vtu_text(const ExportMesh& mesh) {
     std::string text =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\">\n"
         "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
         std::to_string(mesh.nodes_m.size()) + "\" NumberOfCells=\"" + std::to_string(mesh.tetrahedra.size()) +
         "\">\n<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n";
     for (const Point& p : mesh.nodes_m)
-        for (int axis = 0; axis < 3; ++axis) append(text, p[axis], axis == 2 ? '\n' : ' ');
-    text += "</DataArray>\n</Points>\n<Cells>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
+        for (int axis = 0; axis < 3; ++axis)
+            append(text, p[axis], axis == 2 ? '\n' : ' ');
+    text +=
+        "</DataArray>\n</Points>\n<Cells>\n<DataArray type=\"Int64\" Name=\"connectivity\" "
+        "format=\"ascii\">\n";
     for (const Tetrahedron& t : mesh.tetrahedra)
-        for (int k = 0; k < 4; ++k) append(text, t[k], k == 3 ? '\n' : ' ');
+        for (int k = 0; k < 4; ++k)
+            append(text, t[k], k == 3 ? '\n' : ' ');
     text += "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
-    for (std::size_t i = 1; i <= mesh.tetrahedra.size(); ++i) append(text, 4 * i, '\n');
+    for (std::size_t i = 1; i <= mesh.tetrahedra.size(); ++i)
+        append(text, 4 * i, '\n');
     text += "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n";
-    for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) append(text, kVtkTetrahedron, '\n');
+    for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i)
+        append(text, kVtkTetrahedron, '\n');
     text += "</DataArray>\n</Cells>\n";
     append_vtu_fields(text, mesh);
     return text + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
@@ -161,11 +191,13 @@ std::string msh_text(const ExportMesh& mesh) {
     append(text, mesh.nodes_m.size(), '\n');
     for (std::size_t i = 0; i < mesh.nodes_m.size(); ++i) {
         append(text, i + 1, ' ');
-        for (int axis = 0; axis < 3; ++axis) append(text, mesh.nodes_m[i][axis], axis == 2 ? '\n' : ' ');
+        for (int axis = 0; axis < 3; ++axis)
+            append(text, mesh.nodes_m[i][axis], axis == 2 ? '\n' : ' ');
     }
     text += "$EndNodes\n";
     append_msh_elements(text, mesh);
-    for (const ExportField& field : mesh.fields) append_msh_field(text, field);
+    for (const ExportField& field : mesh.fields)
+        append_msh_field(text, field);
     return text;
 }
 

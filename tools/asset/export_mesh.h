@@ -20,7 +20,7 @@ struct ExportField {
 struct ExportMesh {
     std::vector<Point> nodes_m;
     std::vector<Tetrahedron> tetrahedra;
-    std::vector<std::string> region_names;            ///< may be empty
+    std::vector<std::string> region_names;             ///< may be empty
     std::vector<std::uint32_t> region_of_tetrahedron;  ///< [tetrahedra], or empty
     std::vector<ExportField> fields;
 };

@@ -15,7 +15,9 @@ std::string number(double value) {
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
-const char* name_of(ToolShape shape) { return shape == ToolShape::sphere ? "sphere" : "plate"; }
+const char* name_of(ToolShape shape) {
+    return shape == ToolShape::sphere ? "sphere" : "plate";
+}
 
 const char* name_of(ToolContact contact) {
     static constexpr std::array<const char*, 3> kNames{"bonded", "sticking", "frictionless"};
@@ -41,29 +43,33 @@ std::string header_text(const FileInfo& file) {
     const FileHeader& header = file.header;
     const Provenance& made = header.provenance;
     std::string text = "kind            " + std::string(to_string(header.kind)) + ", format " +
-                       std::to_string(header.format_version[0]) + "." + std::to_string(header.format_version[1]) + "\n";
+                       std::to_string(header.format_version[0]) + "." +
+                       std::to_string(header.format_version[1]) + "\n";
     text += "content hash    " + header.content_hash + "\n";
-    text += "made by         " + made.tool + " " + made.tool_version + ", seed " + std::to_string(made.seed) + "\n";
-    for (const std::string& argument : made.arguments) text += "  argument      " + argument + "\n";
-    for (const auto& [role, hash] : made.inputs) text += "  input         " + role + " " + hash + "\n";
+    text += "made by         " + made.tool + " " + made.tool_version + ", seed " + std::to_string(made.seed) +
+            "\n";
+    for (const std::string& argument : made.arguments)
+        text += "  argument      " + argument + "\n";
+    for (const auto& [role, hash] : made.inputs)
+        text += "  input         " + role + " " + hash + "\n";
     return text + "bytes           " + std::to_string(file.file_bytes) + "\n";
 }
 
 std::string asset_text(const Asset& asset) {
     std::string text = "scene           " + asset.name + ", level " + asset.level + "\n";
     text += "tetrahedra      " + std::to_string(asset.tetrahedra.size()) + "\n";
-    text += "nodes           " + std::to_string(asset.nodes_m.size()) + ", " + std::to_string(asset.free_node_count) +
-            " of them free\n";
+    text += "nodes           " + std::to_string(asset.nodes_m.size()) + ", " +
+            std::to_string(asset.free_node_count) + " of them free\n";
     for (std::size_t i = 0; i < asset.palette.size(); ++i) {
         const PaletteEntry& entry = asset.palette[i];
         const auto users = std::count(asset.palette_index.begin(), asset.palette_index.end(), i);
-        text += "material " + padded_right(std::to_string(i), 7) + "E " + number(entry.youngs_modulus_pa) + " Pa, nu " +
-                number(entry.poissons_ratio) + ", density " + number(entry.density_kg_per_m3) + " kg/m^3, " +
-                std::to_string(users) + " tetrahedra\n";
+        text += "material " + padded_right(std::to_string(i), 7) + "E " + number(entry.youngs_modulus_pa) +
+                " Pa, nu " + number(entry.poissons_ratio) + ", density " + number(entry.density_kg_per_m3) +
+                " kg/m^3, " + std::to_string(users) + " tetrahedra\n";
     }
     for (const ToolSet& tool : asset.tools)
-        text += "tool            " + tool.name + ": " + name_of(tool.shape) + ", " + name_of(tool.contact) + ", " +
-                std::to_string(tool.nodes.size()) + " nodes\n";
+        text += "tool            " + tool.name + ": " + name_of(tool.shape) + ", " + name_of(tool.contact) +
+                ", " + std::to_string(tool.nodes.size()) + " nodes\n";
     return text;
 }
 
@@ -75,7 +81,8 @@ std::string node_lines(const Description& description) {
         line += std::string(2 * depth, ' ') + node.path.substr(node.path.rfind('/') + 1);
         if (node.is_group) line += "/";
         if (!node.is_group) line = padded_right(line, 48) + "  " + shape_of(node) + "  " + node.units;
-        for (const auto& [name, value] : node.attributes) line += "  " + name + "=" + value;
+        for (const auto& [name, value] : node.attributes)
+            line += "  " + name + "=" + value;
         if (description.asset && node.is_group)
             if (const Asset::Request* request = request_for(*description.asset, node.path))
                 line = padded_right(line, 48) + "  asked for by " + request->scene_key + " (line " +
@@ -89,7 +96,8 @@ std::string node_lines(const Description& description) {
 void write_provenance(JsonWriter& json, const Provenance& made) {
     json.open_object("provenance").text("tool", made.tool).text("tool_version", made.tool_version);
     json.number("seed", made.seed).open_array("arguments");
-    for (const std::string& argument : made.arguments) json.text("", argument);
+    for (const std::string& argument : made.arguments)
+        json.text("", argument);
     json.close_array().open_array("inputs");
     for (const auto& [role, hash] : made.inputs)
         json.open_object().text("role", role).text("content_hash", hash).close_object();
@@ -123,15 +131,18 @@ void write_node(JsonWriter& json, const Description& description, const NodeInfo
     json.number("bytes_on_disk", node.bytes_on_disk);
     if (!node.is_group) {
         json.text("type", node.type).text("units", node.units).open_array("extents");
-        for (const std::uint64_t extent : node.extents) json.number("", extent);
+        for (const std::uint64_t extent : node.extents)
+            json.number("", extent);
         json.close_array();
     }
     json.open_object("attributes");
-    for (const auto& [name, value] : node.attributes) json.text(name, value);
+    for (const auto& [name, value] : node.attributes)
+        json.text(name, value);
     json.close_object();
     if (description.asset && node.is_group)
         if (const Asset::Request* request = request_for(*description.asset, node.path))
-            json.text("scene_key", request->scene_key).number("scene_line", std::uint64_t{request->scene_line});
+            json.text("scene_key", request->scene_key)
+                .number("scene_line", std::uint64_t{request->scene_line});
     json.close_object();
 }
 
@@ -160,7 +171,8 @@ std::string info_json(const Description& description) {
     write_provenance(json, header.provenance);
     if (description.asset) write_asset(json, *description.asset);
     json.open_array("nodes");
-    for (const NodeInfo& node : description.file.nodes) write_node(json, description, node);
+    for (const NodeInfo& node : description.file.nodes)
+        write_node(json, description, node);
     json.close_array().number("other_bytes", description.file.other_bytes).close_object();
     return json.take();
 }

@@ -37,25 +37,30 @@ void declare(CLI::App& app, Options& options) {
     options.info = add_command(app, "info", "say what is in a file, and what asked for it");
     options.info->add_option("FILE", options.file, "any file of Knead")->required();
     options.info->add_flag("--json", options.json, "print JSON");
-    options.validate = add_command(app, "validate", "check a file completely; exit 1 and one line per issue if it fails");
+    options.validate =
+        add_command(app, "validate", "check a file completely; exit 1 and one line per issue if it fails");
     options.validate->add_option("FILE", options.file, "any file of Knead")->required();
     options.diff = add_command(app, "diff", "compare two files dataset by dataset; exit 1 if they differ");
     options.diff->add_option("A", options.file, "first file")->required();
     options.diff->add_option("B", options.other, "second file")->required();
     const char* const tolerance_type = "[DATASET=]NUMBER";
     options.diff->add_option("--abs", options.absolute, "absolute tolerance of floating-point data [0]")
-        ->type_name(tolerance_type)->allow_extra_args(false);
+        ->type_name(tolerance_type)
+        ->allow_extra_args(false);
     options.diff->add_option("--rel", options.relative, "relative tolerance of floating-point data [0]")
-        ->type_name(tolerance_type)->allow_extra_args(false);
+        ->type_name(tolerance_type)
+        ->allow_extra_args(false);
     options.export_command = add_command(app, "export", "write the mesh with its values for another program");
     options.export_command->add_option("FILE", options.file, "a file with a mesh")->required();
     options.export_command->add_option("-o,--output", options.output, ".vtu (ParaView) or .msh (gmsh 2.2)")
-        ->type_name("FILE")->required();
+        ->type_name("FILE")
+        ->required();
 }
 
 ExitCode run_info(const Options& options) {
     Description description{value_or_throw(inspect_file(options.file)), {}};
-    if (description.file.header.kind == FileKind::asset) description.asset = value_or_throw(read_asset(options.file));
+    if (description.file.header.kind == FileKind::asset)
+        description.asset = value_or_throw(read_asset(options.file));
     std::cout << (options.json ? info_json(description) : info_text(description));
     return ExitCode::done;
 }
@@ -63,7 +68,8 @@ ExitCode run_info(const Options& options) {
 ExitCode run_validate(const Options& options, const ToolContext& context) {
     const Result<FileKind> result = validate_file(options.file);
     if (result.ok()) {
-        if (!context.quiet) std::cout << options.file.string() << ": valid (" << to_string(result.value()) << ")\n";
+        if (!context.quiet)
+            std::cout << options.file.string() << ": valid (" << to_string(result.value()) << ")\n";
         return ExitCode::done;
     }
     const ErrorCode code = result.error().code;
@@ -85,11 +91,16 @@ ExitCode run_diff(const Options& options, const ToolContext& context) {
 
 ExportMesh read_for_export(const fs::path& file) {
     switch (value_or_throw(read_header(file)).kind) {
-        case FileKind::tet_mesh: return export_mesh(value_or_throw(read_tet_mesh(file)));
-        case FileKind::material: return export_mesh(value_or_throw(read_material(file)));
-        case FileKind::clustering: return export_mesh(value_or_throw(read_clustering(file)));
-        case FileKind::asset: return export_mesh(value_or_throw(read_asset(file)));
-        case FileKind::overlap: break;
+        case FileKind::tet_mesh:
+            return export_mesh(value_or_throw(read_tet_mesh(file)));
+        case FileKind::material:
+            return export_mesh(value_or_throw(read_material(file)));
+        case FileKind::clustering:
+            return export_mesh(value_or_throw(read_clustering(file)));
+        case FileKind::asset:
+            return export_mesh(value_or_throw(read_asset(file)));
+        case FileKind::overlap:
+            break;
     }
     fail_input(file.string() + ": an overlap has no mesh to export");
 }
@@ -111,8 +122,10 @@ ExitCode run_export(const Options& options, ToolContext& context) {
 
 int main(int argc, char** argv) {
     using namespace knead::tools;
-    ToolInfo info{"knead-asset", "look into the files of Knead: info, validate, diff, export",
-                  "knead-asset info liver.asset.hdf", {}};
+    ToolInfo info{"knead-asset",
+                  "look into the files of Knead: info, validate, diff, export",
+                  "knead-asset info liver.asset.hdf",
+                  {}};
     info.writes_report = false;
     info.writes_depfile = false;
     Options options;

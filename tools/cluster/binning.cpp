@@ -80,7 +80,8 @@ class OptimalCuts {
     OptimalCuts(const Histogram& histogram, std::uint32_t bins) : size_(histogram.values.size()) {
         sum_prefixes(histogram);
         cost_.resize(size_ + 1);
-        for (std::size_t i = 1; i <= size_; ++i) cost_[i] = range_cost(0, i);
+        for (std::size_t i = 1; i <= size_; ++i)
+            cost_[i] = range_cost(0, i);
         for (std::uint32_t bin = 1; bin < bins; ++bin) {
             last_cut_.emplace_back(size_ + 1, 0U);
             next_cost_.assign(size_ + 1, std::numeric_limits<double>::infinity());
@@ -92,7 +93,7 @@ class OptimalCuts {
     Bins bin_of_different() const {
         Bins bin_of(size_);
         std::size_t end = size_;
-        for (auto bin = static_cast<std::uint32_t>(last_cut_.size()); ; --bin) {
+        for (auto bin = static_cast<std::uint32_t>(last_cut_.size());; --bin) {
             const std::size_t begin = bin == 0 ? 0 : last_cut_[bin - 1][end];
             std::fill(bin_of.begin() + static_cast<std::ptrdiff_t>(begin),
                       bin_of.begin() + static_cast<std::ptrdiff_t>(end), bin);
@@ -171,10 +172,18 @@ std::vector<std::uint32_t> bin_values(std::span<const double> youngs_modulus_pa,
     if (bins == 0) fail_usage("the number of bins must be at least 1");
     Bins bin_of;
     switch (binning) {
-        case Binning::equal_width: bin_of = equal_width(youngs_modulus_pa, bins); break;
-        case Binning::equal_population: bin_of = equal_population(youngs_modulus_pa, bins); break;
-        case Binning::equal_width_log: bin_of = equal_width_log(youngs_modulus_pa, bins); break;
-        case Binning::kmeans: bin_of = kmeans_bins(youngs_modulus_pa, bins); break;
+        case Binning::equal_width:
+            bin_of = equal_width(youngs_modulus_pa, bins);
+            break;
+        case Binning::equal_population:
+            bin_of = equal_population(youngs_modulus_pa, bins);
+            break;
+        case Binning::equal_width_log:
+            bin_of = equal_width_log(youngs_modulus_pa, bins);
+            break;
+        case Binning::kmeans:
+            bin_of = kmeans_bins(youngs_modulus_pa, bins);
+            break;
     }
     drop_empty(bin_of);
     return bin_of;

@@ -23,7 +23,7 @@ inline constexpr std::uint32_t kMaxKmeansBins = 256;
 /// @param youngs_modulus_pa not empty, finite, > 0
 /// @param bins >= 1, otherwise bad_usage; fewer come back when there are fewer different values
 /// Source: paper section 3.2, "Initialization".
-[[nodiscard]] std::vector<std::uint32_t> bin_values(std::span<const double> youngs_modulus_pa, std::uint32_t bins,
-                                                    Binning binning);
+[[nodiscard]] std::vector<std::uint32_t> bin_values(std::span<const double> youngs_modulus_pa,
+                                                    std::uint32_t bins, Binning binning);
 
 }  // namespace knead::tools

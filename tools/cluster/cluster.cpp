@@ -36,12 +36,14 @@ double mean_value(const std::vector<std::uint32_t>& members, const std::vector<d
     return std::clamp(weighted / volume, low, high);
 }
 
-std::vector<KmeansResult> cluster_bins(const TetMesh& mesh, const std::vector<std::vector<std::uint32_t>>& members,
+std::vector<KmeansResult> cluster_bins(const TetMesh& mesh,
+                                       const std::vector<std::vector<std::uint32_t>>& members,
                                        const ClusterOptions& options) {
     std::vector<KmeansResult> results(members.size());
     tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t bin) {
         std::vector<Point> points(members[bin].size());
-        for (std::size_t i = 0; i < points.size(); ++i) points[i] = barycentre_m(mesh, members[bin][i]);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            points[i] = barycentre_m(mesh, members[bin][i]);
         KmeansOptions kmeans_options;
         kmeans_options.clusters = options.clusters;
         kmeans_options.restarts = options.restarts;
@@ -103,7 +105,8 @@ ClusterResult cluster_object(const TetMesh& mesh, const Material& material, cons
     clustering.bin_of_tetrahedron = bin_values(material.youngs_modulus_pa, options.bins, options.binning);
     clustering.cluster_of_tetrahedron.resize(mesh.tetrahedra.size());
     std::vector<double> volume_m3(mesh.tetrahedra.size());
-    for (std::size_t i = 0; i < volume_m3.size(); ++i) volume_m3[i] = signed_volume_m3(mesh, i);
+    for (std::size_t i = 0; i < volume_m3.size(); ++i)
+        volume_m3[i] = signed_volume_m3(mesh, i);
 
     const auto members = members_of_bins(clustering.bin_of_tetrahedron);
     const auto kmeans_results = cluster_bins(mesh, members, options);

@@ -37,10 +37,10 @@ struct ClusterResult {
 /// Phases P1 and P2: elasticity bins, k-means clusters inside each bin, and the bin's homogenised values.
 ///
 /// k-means works on the barycentres of the tetrahedra, each with the same weight, and its own centres are the
-/// plain means. The barycentre that goes into the result, where aggregation will start, is weighted by volume.
-/// Homogenised values are volume-weighted means. Runs on the threads of the current TBB arena; the result does
-/// not depend on their number.
-/// @param object valid mesh and material
+/// plain means. The barycentre that goes into the result, where aggregation will start, is weighted by
+/// volume. Homogenised values are volume-weighted means. Runs on the threads of the current TBB arena; the
+/// result does not depend on their number.
+/// @param mesh, material valid
 /// Source: paper section 3.2, "Initialization" and "Homogenization".
 [[nodiscard]] ClusterResult cluster_object(const TetMesh& mesh, const Material& material,
                                            const ClusterOptions& options);

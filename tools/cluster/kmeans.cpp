@@ -27,11 +27,14 @@ std::uint64_t seed_of_restart(std::uint64_t seed, std::uint64_t restart) {
 }
 
 /// Uniform in [0, 1) from raw bits: std::uniform_real_distribution differs between platforms.
-double unit_random(std::mt19937_64& engine) { return static_cast<double>(engine() >> 11U) * 0x1.0p-53; }
+double unit_random(std::mt19937_64& engine) {
+    return static_cast<double>(engine() >> 11U) * 0x1.0p-53;
+}
 
-/// k-means++: each next centre is a point drawn with a probability proportional to its squared distance to the
-/// centres so far. Stops early when every point already is a centre.
-std::vector<Point> draw_centres(const std::vector<Point>& points, std::uint32_t count, std::mt19937_64& engine) {
+/// k-means++: each next centre is a point drawn with a probability proportional to its squared distance to
+/// the centres so far. Stops early when every point already is a centre.
+std::vector<Point> draw_centres(const std::vector<Point>& points, std::uint32_t count,
+                                std::mt19937_64& engine) {
     const auto last = points.size() - 1;
     const auto first = static_cast<std::size_t>(unit_random(engine) * static_cast<double>(points.size()));
     std::vector<Point> centres{points[std::min(first, last)]};
@@ -74,8 +77,8 @@ std::size_t farthest_point(const std::vector<Point>& points, const std::vector<P
     return farthest;
 }
 
-/// Moves every centre to the mean of its points, and one centre without points (if any) to the farthest point.
-/// Returns the largest movement.
+/// Moves every centre to the mean of its points, and one centre without points (if any) to the farthest
+/// point. Returns the largest movement.
 double move_centres(const PointTree& tree, const AssignmentSums& sums, std::vector<Point>& centres) {
     const std::vector<Point> before = centres;
     double largest_squared = 0;
@@ -83,7 +86,8 @@ double move_centres(const PointTree& tree, const AssignmentSums& sums, std::vect
     for (std::size_t c = 0; c < centres.size(); ++c) {
         const auto count = static_cast<double>(sums.count[c]);
         if (sums.count[c] > 0) {
-            for (int axis = 0; axis < 3; ++axis) centres[c][axis] = sums.position_sum_m[c][axis] / count;
+            for (int axis = 0; axis < 3; ++axis)
+                centres[c][axis] = sums.position_sum_m[c][axis] / count;
         } else if (!reseeded) {
             centres[c] = tree.points_m()[farthest_point(tree.points_m(), before)];
             reseeded = true;
@@ -93,7 +97,8 @@ double move_centres(const PointTree& tree, const AssignmentSums& sums, std::vect
     return std::sqrt(largest_squared);
 }
 
-Run run_once(const PointTree& tree, const KmeansOptions& options, std::uint32_t clusters, std::uint32_t restart) {
+Run run_once(const PointTree& tree, const KmeansOptions& options, std::uint32_t clusters,
+             std::uint32_t restart) {
     std::mt19937_64 engine(seed_of_restart(options.seed, restart));
     Run run;
     run.centres = draw_centres(tree.points_m(), clusters, engine);
@@ -123,10 +128,12 @@ KmeansResult label_points(const PointTree& tree, Run run) {
         if (new_index[c] == 0) continue;
         new_index[c] = used++;
         Point centre = run.centres[c];
-        for (int axis = 0; axis < 3; ++axis) centre[axis] += tree.origin_m()[axis];
+        for (int axis = 0; axis < 3; ++axis)
+            centre[axis] += tree.origin_m()[axis];
         result.centres_m.push_back(centre);
     }
-    for (std::uint32_t& cluster : result.cluster_of_point) cluster = new_index[cluster];
+    for (std::uint32_t& cluster : result.cluster_of_point)
+        cluster = new_index[cluster];
     result.inertia_m2 = run.inertia;
     result.inertia_history_m2 = std::move(run.history);
     result.converged = run.converged;

@@ -26,11 +26,11 @@ struct KmeansResult {
 
 /// k-means with a Euclidean distance, every point with the same weight.
 ///
-/// Started by k-means++ (Arthur and Vassilvitskii, 2007), refined by Lloyd's algorithm until the centres stand
-/// still; a centre that loses all its points moves to the point that is farthest from its own centre. Ties are
-/// broken by index. Restarts run on the threads of the current TBB arena; the result depends neither on their
-/// number nor on the order of the points (as long as no two coincide). Fewer clusters come back when fewer
-/// different points exist.
+/// Started by k-means++ (Arthur and Vassilvitskii, 2007), refined by Lloyd's algorithm until the centres
+/// stand still; a centre that loses all its points moves to the point that is farthest from its own centre.
+/// Ties are broken by index. Restarts run on the threads of the current TBB arena; the result depends neither
+/// on their number nor on the order of the points (as long as no two coincide). Fewer clusters come back when
+/// fewer different points exist.
 /// @param points not empty, finite
 /// Source: paper section 3.2, "Initialization".
 [[nodiscard]] KmeansResult kmeans(std::span<const Point> points, const KmeansOptions& options);

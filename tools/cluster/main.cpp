@@ -32,8 +32,10 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.add_option("-o,--output", arguments.output, "clustering to write; replaced only once complete")
         ->required()
         ->type_name("FILE");
-    app.add_option("--bins", options.bins, "elasticity bins")->capture_default_str()->type_name("N")->check(
-        CLI::Range(1U, UINT32_MAX));
+    app.add_option("--bins", options.bins, "elasticity bins")
+        ->capture_default_str()
+        ->type_name("N")
+        ->check(CLI::Range(1U, UINT32_MAX));
     app.add_option("--clusters", options.clusters, "clusters in each bin")
         ->capture_default_str()
         ->type_name("K")
@@ -53,8 +55,8 @@ void report(const ToolContext& context, const ClusterResult& result, double clus
     for (std::size_t bin = 0; bin < result.bins.size(); ++bin) {
         const BinReport& b = result.bins[bin];
         const double modulus = result.clustering.bin_youngs_modulus_pa[bin];
-        context.tell(fmt::format("bin {}: {} tetrahedra, {} clusters, E {:.6g} Pa (from {:.6g} to {:.6g})", bin,
-                                 b.tetrahedra, b.clusters, modulus, b.lowest_youngs_modulus_pa,
+        context.tell(fmt::format("bin {}: {} tetrahedra, {} clusters, E {:.6g} Pa (from {:.6g} to {:.6g})",
+                                 bin, b.tetrahedra, b.clusters, modulus, b.lowest_youngs_modulus_pa,
                                  b.highest_youngs_modulus_pa));
         if (!b.converged)
             context.warn(fmt::format("bin {}: k-means stopped after {} iterations before it stood still", bin,
@@ -87,10 +89,9 @@ ExitCode run(ToolContext& context, Arguments& arguments) {
     ClusterOptions& options = arguments.options;
     options.binning = kBinnings.at(arguments.binning);
     options.seed = context.seed;
-    Provenance provenance =
-        context.provenance({"--bins", fmt::format("{}", options.bins), "--clusters",
-                            fmt::format("{}", options.clusters), "--binning", arguments.binning, "--restarts",
-                            fmt::format("{}", options.restarts)});
+    Provenance provenance = context.provenance(
+        {"--bins", fmt::format("{}", options.bins), "--clusters", fmt::format("{}", options.clusters),
+         "--binning", arguments.binning, "--restarts", fmt::format("{}", options.restarts)});
     provenance.inputs.emplace_back("material", value_or_throw(read_header(arguments.material)).content_hash);
     MaterialObject object = value_or_throw(read_material(arguments.material));
 
@@ -98,8 +99,9 @@ ExitCode run(ToolContext& context, Arguments& arguments) {
     const auto cluster_start = std::chrono::steady_clock::now();
     const ClusterResult result = cluster_object(object.mesh, object.material, options);
     const double cluster_s = seconds_since(cluster_start);
-    value_or_throw(write_clustering(
-        arguments.output, {std::move(object.mesh), std::move(object.material), result.clustering}, provenance));
+    value_or_throw(write_clustering(arguments.output,
+                                    {std::move(object.mesh), std::move(object.material), result.clustering},
+                                    provenance));
     report(context, result, cluster_s, seconds_since(start));
     return ExitCode::done;
 }
@@ -110,12 +112,13 @@ ExitCode run(ToolContext& context, Arguments& arguments) {
 int main(int argc, char** argv) {
     using namespace knead::tools;
     Arguments arguments;
-    const ToolInfo info{.name = "knead-cluster",
-                        .purpose = "sort tetrahedra into elasticity bins and cluster each bin in space.",
-                        .example = "knead-cluster cube.material.hdf --bins 2 --clusters 3 -o cube.clusters.hdf",
-                        .libraries = {std::string("oneTBB ") + TBB_VERSION_STRING},
-                        .uses_threads = true,
-                        .uses_seed = true};
+    const ToolInfo info{
+        .name = "knead-cluster",
+        .purpose = "sort tetrahedra into elasticity bins and cluster each bin in space.",
+        .example = "knead-cluster cube.material.hdf --bins 2 --clusters 3 -o cube.clusters.hdf",
+        .libraries = {std::string("oneTBB ") + TBB_VERSION_STRING},
+        .uses_threads = true,
+        .uses_seed = true};
     return run_tool(
         argc, argv, info, [&](CLI::App& app) { declare(app, arguments); },
         [&](ToolContext& context) { return run(context, arguments); });

@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::uint32_t kLeafSize = 16;
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Point& a, const Point& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /// Middle of the bounding box: unlike a mean, it does not depend on the order of summation.
 Point middle_of(std::span<const Point> points) {
@@ -51,11 +53,13 @@ PointTree::PointTree(std::span<const Point> points)
     : origin_m_(middle_of(points)), points_m_(points.begin(), points.end()), original_index_(points.size()) {
     std::iota(original_index_.begin(), original_index_.end(), 0U);
     for (Point& point : points_m_)
-        for (int axis = 0; axis < 3; ++axis) point[axis] -= origin_m_[axis];
+        for (int axis = 0; axis < 3; ++axis)
+            point[axis] -= origin_m_[axis];
     cells_.reserve(4 * points.size() / kLeafSize + 1);
     build(0, static_cast<std::uint32_t>(points.size()));
     std::vector<Point> in_tree_order(points_m_.size());
-    for (std::size_t i = 0; i < in_tree_order.size(); ++i) in_tree_order[i] = points_m_[original_index_[i]];
+    for (std::size_t i = 0; i < in_tree_order.size(); ++i)
+        in_tree_order[i] = points_m_[original_index_[i]];
     points_m_ = std::move(in_tree_order);
 }
 
@@ -97,19 +101,23 @@ std::uint32_t PointTree::build(std::uint32_t begin, std::uint32_t end) {
 void PointTree::sum_leaf(Cell& cell) {
     for (std::uint32_t i = cell.begin; i < cell.end; ++i) {
         const Point& point = points_m_[original_index_[i]];
-        for (int axis = 0; axis < 3; ++axis) cell.sum[axis] += point[axis];
+        for (int axis = 0; axis < 3; ++axis)
+            cell.sum[axis] += point[axis];
         cell.sum_of_squares += dot(point, point);
     }
 }
 
 void PointTree::sum_children(Cell& cell, std::uint32_t left) {
     for (const std::uint32_t child : {left, cell.right_child}) {
-        for (int axis = 0; axis < 3; ++axis) cell.sum[axis] += cells_[child].sum[axis];
+        for (int axis = 0; axis < 3; ++axis)
+            cell.sum[axis] += cells_[child].sum[axis];
         cell.sum_of_squares += cells_[child].sum_of_squares;
     }
 }
 
-double PointTree::diagonal_m() const { return std::sqrt(squared_distance(cells_[0].low, cells_[0].high)); }
+double PointTree::diagonal_m() const {
+    return std::sqrt(squared_distance(cells_[0].low, cells_[0].high));
+}
 
 /// One pass down the tree. Candidates of a cell are the centres that may be closest to a point in it.
 class PointTree::Assigner {
@@ -143,7 +151,8 @@ class PointTree::Assigner {
     void take_cell(const Cell& cell, std::uint32_t centre) {
         const Point& c = centres_[centre];
         const double count = cell.end - cell.begin;
-        for (int axis = 0; axis < 3; ++axis) sums_.position_sum_m[centre][axis] += cell.sum[axis];
+        for (int axis = 0; axis < 3; ++axis)
+            sums_.position_sum_m[centre][axis] += cell.sum[axis];
         sums_.count[centre] += cell.end - cell.begin;
         sums_.inertia_m2 += cell.sum_of_squares - 2.0 * dot(c, cell.sum) + count * dot(c, c);
     }
@@ -152,7 +161,8 @@ class PointTree::Assigner {
         for (std::uint32_t i = cell.begin; i < cell.end; ++i) {
             const Point& point = tree_.points_m_[i];
             const std::uint32_t centre = closest_candidate(point, begin, end);
-            for (int axis = 0; axis < 3; ++axis) sums_.position_sum_m[centre][axis] += point[axis];
+            for (int axis = 0; axis < 3; ++axis)
+                sums_.position_sum_m[centre][axis] += point[axis];
             ++sums_.count[centre];
             sums_.inertia_m2 += squared_distance(point, centres_[centre]);
         }
@@ -174,7 +184,8 @@ class PointTree::Assigner {
     /// Appends the candidates that are not farther than the cell's favourite from every point of the cell.
     void keep_competitive(const Cell& cell, std::size_t begin, std::size_t end) {
         Point middle{};
-        for (int axis = 0; axis < 3; ++axis) middle[axis] = 0.5 * (cell.low[axis] + cell.high[axis]);
+        for (int axis = 0; axis < 3; ++axis)
+            middle[axis] = 0.5 * (cell.low[axis] + cell.high[axis]);
         const std::uint32_t favourite = closest_candidate(middle, begin, end);
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t candidate = candidates_[i];

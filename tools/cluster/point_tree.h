@@ -11,9 +11,9 @@ namespace knead::tools {
 
 /// What one assignment of all points to their closest centres adds up to.
 struct AssignmentSums {
-    std::vector<Point> position_sum_m;   ///< [centres] sum of the points of each centre
-    std::vector<std::uint64_t> count;    ///< [centres] number of points of each centre
-    double inertia_m2 = 0;               ///< sum over all points of the squared distance to their centre
+    std::vector<Point> position_sum_m;  ///< [centres] sum of the points of each centre
+    std::vector<std::uint64_t> count;   ///< [centres] number of points of each centre
+    double inertia_m2 = 0;              ///< sum over all points of the squared distance to their centre
 };
 
 /// A k-d tree over points that remembers the sums of each cell, so that one step of Lloyd's algorithm visits
@@ -32,7 +32,9 @@ class PointTree {
     /// Points relative to origin_m(), in the order of the tree.
     [[nodiscard]] const std::vector<Point>& points_m() const noexcept { return points_m_; }
     /// Index in the span given to the constructor of each of points_m().
-    [[nodiscard]] const std::vector<std::uint32_t>& original_index() const noexcept { return original_index_; }
+    [[nodiscard]] const std::vector<std::uint32_t>& original_index() const noexcept {
+        return original_index_;
+    }
     [[nodiscard]] const Point& origin_m() const noexcept { return origin_m_; }
     /// Longest diagonal: a length to measure movements against.
     [[nodiscard]] double diagonal_m() const;

@@ -29,7 +29,8 @@ void require_counts(const char* which, std::size_t in_mesh, std::size_t in_overl
 
 std::vector<double> volumes_of(const TetMesh& mesh) {
     std::vector<double> volumes(mesh.tetrahedra.size());
-    for (std::size_t i = 0; i < volumes.size(); ++i) volumes[i] = signed_volume_m3(mesh, i);
+    for (std::size_t i = 0; i < volumes.size(); ++i)
+        volumes[i] = signed_volume_m3(mesh, i);
     return volumes;
 }
 
@@ -42,20 +43,23 @@ void require_not_exceeded(const char* which, const std::vector<double>& volume_m
         if (++count <= 3) ids += (ids.empty() ? "" : ", ") + std::to_string(i);
     }
     if (count > 0)
-        fail_input("the overlap is of other meshes, or a mesh overlaps itself: it gives " + std::to_string(count) + " of " +
-                   std::to_string(volume_m3.size()) + " " + which +
+        fail_input("the overlap is of other meshes, or a mesh overlaps itself: it gives " +
+                   std::to_string(count) + " of " + std::to_string(volume_m3.size()) + " " + which +
                    " tetrahedra more volume than they have (counted from 0: " + ids +
                    (count > 3 ? ", ...)" : ")"));
 }
 
-std::vector<std::uint32_t> missing_of(const std::vector<double>& volume_m3, const std::vector<double>& covered_m3) {
+std::vector<std::uint32_t> missing_of(const std::vector<double>& volume_m3,
+                                      const std::vector<double>& covered_m3) {
     std::vector<std::uint32_t> missing;
     for (std::uint32_t i = 0; i < volume_m3.size(); ++i)
         if (covered_m3[i] < volume_m3[i] * (1.0 - kMissing)) missing.push_back(i);
     return missing;
 }
 
-double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double total(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 Coverage check_coverage(const TetMesh& fine, const TetMesh& coarse, const OverlapMatrix& overlap) {
     const std::vector<double> fine_volume = volumes_of(fine);
@@ -68,7 +72,8 @@ Coverage check_coverage(const TetMesh& fine, const TetMesh& coarse, const Overla
             coarse_covered[row] += overlap.volumes_m3[entry];
             fine_covered[overlap.columns[entry]] += overlap.volumes_m3[entry];
         }
-        if (overlap.row_offsets[row] == overlap.row_offsets[row + 1]) coverage.coarse_uncovered.push_back(row);
+        if (overlap.row_offsets[row] == overlap.row_offsets[row + 1])
+            coverage.coarse_uncovered.push_back(row);
     }
     require_not_exceeded("coarse", coarse_volume, coarse_covered);
     require_not_exceeded("fine", fine_volume, fine_covered);
@@ -81,8 +86,8 @@ Coverage check_coverage(const TetMesh& fine, const TetMesh& coarse, const Overla
 
 /// Fine tetrahedra with the same values, softest group first.
 struct Groups {
-    std::vector<std::uint32_t> group_of;   ///< [fine tetrahedra]
-    std::vector<std::uint32_t> example;    ///< [groups] one tetrahedron of each
+    std::vector<std::uint32_t> group_of;  ///< [fine tetrahedra]
+    std::vector<std::uint32_t> example;   ///< [groups] one tetrahedron of each
 };
 
 std::tuple<double, double, double> values_of(const Material& material, std::uint32_t tetrahedron) {
@@ -98,8 +103,9 @@ Groups group(const Material& material) {
     const auto key = [&](std::uint32_t t) { return std::tuple(values_of(material, t), bin_of(t)); };
     std::vector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return std::tuple(key(a), a) < std::tuple(key(b), b);
+    });
     Groups groups;
     groups.group_of.resize(count);
     for (const std::uint32_t tetrahedron : order) {
@@ -124,7 +130,8 @@ class GroupVolumes {
     /// The group with most volume, ties: the stiffest. Empties this. Precondition: something was added.
     std::uint32_t take_dominant() {
         double largest = 0;
-        for (const std::uint32_t group : touched_) largest = std::max(largest, volume_m3_[group]);
+        for (const std::uint32_t group : touched_)
+            largest = std::max(largest, volume_m3_[group]);
         std::uint32_t dominant = 0;
         for (const std::uint32_t group : touched_) {
             if (volume_m3_[group] >= largest - kTie * covered_m3_) dominant = std::max(dominant, group);
@@ -142,7 +149,8 @@ class GroupVolumes {
 };
 
 /// For every coarse tetrahedron, the fine one whose values it takes; nothing where there is no overlap.
-std::vector<std::optional<std::uint32_t>> dominant_sources(const Material& fine, const OverlapMatrix& overlap) {
+std::vector<std::optional<std::uint32_t>> dominant_sources(const Material& fine,
+                                                           const OverlapMatrix& overlap) {
     const Groups groups = group(fine);
     GroupVolumes volumes(groups.example.size());
     std::vector<std::optional<std::uint32_t>> sources(overlap.coarse_count);
@@ -188,8 +196,8 @@ void average(const Material& fine, const OverlapMatrix& overlap, Material& coars
     }
 }
 
-void fill_uncovered(const MaterialObject& fine, const TetMesh& coarse, const std::vector<std::uint32_t>& uncovered,
-                    Material& material) {
+void fill_uncovered(const MaterialObject& fine, const TetMesh& coarse,
+                    const std::vector<std::uint32_t>& uncovered, Material& material) {
     if (uncovered.empty()) return;
     const NearestBarycentre nearest(fine.mesh);
     for (const std::uint32_t row : uncovered)
@@ -211,7 +219,8 @@ CoarsenResult coarsen(const MaterialObject& fine, const TetMesh& coarse, const O
     if (rule == CoarsenRule::volume_average) {
         average(fine.material, overlap, material);
     } else {
-        if (!fine.material.bin_of_tetrahedron.empty()) material.bin_of_tetrahedron.resize(overlap.coarse_count);
+        if (!fine.material.bin_of_tetrahedron.empty())
+            material.bin_of_tetrahedron.resize(overlap.coarse_count);
         const auto sources = dominant_sources(fine.material, overlap);
         for (std::uint32_t row = 0; row < overlap.coarse_count; ++row)
             if (sources[row]) take_values(fine.material, *sources[row], row, material);

@@ -17,8 +17,8 @@ enum class CoarsenRule : std::uint8_t {
 
 /// How well the two meshes cover each other. Shares are of volumes.
 struct Coverage {
-    double coarse_share = 0;  ///< of the coarse mesh that lies in the fine one
-    double fine_share = 0;    ///< of the fine mesh that lies in the coarse one
+    double coarse_share = 0;                      ///< of the coarse mesh that lies in the fine one
+    double fine_share = 0;                        ///< of the fine mesh that lies in the coarse one
     std::vector<std::uint32_t> coarse_missing;    ///< coarse tetrahedra that miss more than 1 %
     std::vector<std::uint32_t> fine_missing;      ///< fine tetrahedra that miss more than 1 %
     std::vector<std::uint32_t> coarse_uncovered;  ///< coarse tetrahedra without any overlap
@@ -35,7 +35,8 @@ struct CoarsenResult {
 /// Both rules look at the covered volume only. A coarse tetrahedron without overlap takes the values of the
 /// fine tetrahedron with the nearest barycentre.
 /// @param fine valid mesh and material
-/// @throws bad_input when the overlap's counts are not those of the meshes, or when it gives a tetrahedron more
+/// @throws bad_input when the overlap's counts are not those of the meshes, or when it gives a tetrahedron
+/// more
 ///         volume than it has: the overlap is of other meshes
 /// Source: paper section 3.2, "Geometric coarsening"; the average is [NPF06]'s.
 [[nodiscard]] CoarsenResult coarsen(const MaterialObject& fine, const TetMesh& coarse,

@@ -43,7 +43,8 @@ void declare(CLI::App& app, Arguments& arguments) {
 }
 
 /// The header's hash of an input, noted in the provenance; call before reading the file.
-void note_input(ToolContext& context, const std::filesystem::path& file, const char* role, Provenance& provenance) {
+void note_input(ToolContext& context, const std::filesystem::path& file, const char* role,
+                Provenance& provenance) {
     context.add_input(file);
     provenance.inputs.emplace_back(role, value_or_throw(read_header(file)).content_hash);
 }
@@ -53,8 +54,8 @@ nlohmann::ordered_json to_json(const std::vector<std::uint32_t>& ids) {
     return {{"count", ids.size()}, {"first_ids", std::vector<std::uint32_t>(first.begin(), first.end())}};
 }
 
-void warn_about(const ToolContext& context, const std::filesystem::path& mesh, const std::vector<std::uint32_t>& ids,
-                const char* what) {
+void warn_about(const ToolContext& context, const std::filesystem::path& mesh,
+                const std::vector<std::uint32_t>& ids, const char* what) {
     if (ids.empty()) return;
     const std::span<const std::uint32_t> first(ids.data(), std::min(ids.size(), kIdsShown));
     context.warn(fmt::format("{}: {} tetrahedra {} (counted from 0: {}{})", mesh.string(), ids.size(), what,
@@ -64,20 +65,22 @@ void warn_about(const ToolContext& context, const std::filesystem::path& mesh, c
 void report(const ToolContext& context, const Arguments& arguments, const CoarsenResult& result,
             double coarsen_s, double total_s) {
     const Coverage& coverage = result.coverage;
-    context.tell(fmt::format("{}: {} tetrahedra; {:.4f} % of the coarse and {:.4f} % of the fine volume covered",
-                             arguments.output.string(), result.material.youngs_modulus_pa.size(),
-                             100 * coverage.coarse_share, 100 * coverage.fine_share));
+    context.tell(
+        fmt::format("{}: {} tetrahedra; {:.4f} % of the coarse and {:.4f} % of the fine volume covered",
+                    arguments.output.string(), result.material.youngs_modulus_pa.size(),
+                    100 * coverage.coarse_share, 100 * coverage.fine_share));
     warn_about(context, arguments.coarse, coverage.coarse_missing, "miss more than 1 % of their volume");
     warn_about(context, arguments.fine, coverage.fine_missing, "miss more than 1 % of their volume");
     warn_about(context, arguments.coarse, coverage.coarse_uncovered,
                "are not covered at all and take the nearest fine tetrahedron's values");
-    const nlohmann::ordered_json report{{"tetrahedra", result.material.youngs_modulus_pa.size()},
-                                        {"coarse_covered_share", coverage.coarse_share},
-                                        {"fine_covered_share", coverage.fine_share},
-                                        {"coarse_missing_more_than_1_percent", to_json(coverage.coarse_missing)},
-                                        {"fine_missing_more_than_1_percent", to_json(coverage.fine_missing)},
-                                        {"coarse_uncovered", to_json(coverage.coarse_uncovered)},
-                                        {"seconds", {{"coarsen", coarsen_s}, {"total", total_s}}}};
+    const nlohmann::ordered_json report{
+        {"tetrahedra", result.material.youngs_modulus_pa.size()},
+        {"coarse_covered_share", coverage.coarse_share},
+        {"fine_covered_share", coverage.fine_share},
+        {"coarse_missing_more_than_1_percent", to_json(coverage.coarse_missing)},
+        {"fine_missing_more_than_1_percent", to_json(coverage.fine_missing)},
+        {"coarse_uncovered", to_json(coverage.coarse_uncovered)},
+        {"seconds", {{"coarsen", coarsen_s}, {"total", total_s}}}};
     context.write_report(report.dump(2) + "\n");
 }
 
@@ -105,7 +108,8 @@ ExitCode run(ToolContext& context, const Arguments& arguments) {
         }
     }();
     const double coarsen_s = seconds_since(coarsen_start);
-    // The names of regions and arrays speak of the original's materials; the coarse values come from the fine mesh.
+    // The names of regions and arrays speak of the original's materials; the coarse values come from the fine
+    // mesh.
     coarse.regions = {};
     coarse.cell_arrays.clear();
     value_or_throw(write_material(arguments.output, {std::move(coarse), result.material}, provenance));
@@ -119,10 +123,11 @@ ExitCode run(ToolContext& context, const Arguments& arguments) {
 int main(int argc, char** argv) {
     using namespace knead::tools;
     Arguments arguments;
-    const ToolInfo info{.name = "knead-coarsen",
-                        .purpose = "give each coarse tetrahedron its elasticity from the fine ones it overlaps.",
-                        .example = "knead-coarsen fine.hdf coarse.hdf overlap.hdf -o coarse.material.hdf",
-                        .libraries = {}};
+    const ToolInfo info{
+        .name = "knead-coarsen",
+        .purpose = "give each coarse tetrahedron its elasticity from the fine ones it overlaps.",
+        .example = "knead-coarsen fine.hdf coarse.hdf overlap.hdf -o coarse.material.hdf",
+        .libraries = {}};
     return run_tool(
         argc, argv, info, [&](CLI::App& app) { declare(app, arguments); },
         [&](ToolContext& context) { return run(context, arguments); });

@@ -9,7 +9,8 @@ namespace knead::tools {
 
 NearestBarycentre::NearestBarycentre(const TetMesh& mesh) {
     entries_.reserve(mesh.tetrahedra.size());
-    for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) entries_.push_back({barycentre_m(mesh, t), t});
+    for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
+        entries_.push_back({barycentre_m(mesh, t), t});
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
         return std::tie(a.barycentre[0], a.tetrahedron) < std::tie(b.barycentre[0], b.tetrahedron);
     });
@@ -31,8 +32,9 @@ std::uint32_t NearestBarycentre::operator()(const Point& point) const {
         }
         return true;
     };
-    const auto middle = std::lower_bound(entries_.begin(), entries_.end(), point[0],
-                                         [](const Entry& entry, double x) { return entry.barycentre[0] < x; });
+    const auto middle =
+        std::lower_bound(entries_.begin(), entries_.end(), point[0],
+                         [](const Entry& entry, double x) { return entry.barycentre[0] < x; });
     auto right = middle;
     auto left = middle;
     bool more_right = true;

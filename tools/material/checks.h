@@ -8,7 +8,8 @@
 
 namespace knead::tools {
 
-// Why a value is none of an elastic solid; nothing when it may be one. The text completes "values of ... are".
+// Why a value is none of an elastic solid; nothing when it may be one. The text completes "values of ...
+// are".
 [[nodiscard]] std::optional<std::string> why_not_poissons_ratio(double value);
 /// For Young's modulus, density and mass alike.
 [[nodiscard]] std::optional<std::string> why_not_positive(double value);

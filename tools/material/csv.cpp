@@ -50,7 +50,8 @@ std::vector<Line> rows_of(std::string_view text) {
         lines.push_back({number, trimmed(text.substr(0, end))});
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     }
-    while (!lines.empty() && lines.back().text.empty()) lines.pop_back();
+    while (!lines.empty() && lines.back().text.empty())
+        lines.pop_back();
     if (!lines.empty() && !lines[0].text.empty() && is_header(lines[0].text)) lines.erase(lines.begin());
     if (lines.empty()) fail_input("there are no values");
     return lines;

@@ -9,12 +9,12 @@
 
 namespace knead::tools {
 
-/// A whole text as one finite or non-finite number ("1e3", "nan"), without regard to the locale; blanks around
-/// it are allowed. Anything else: std::nullopt.
+/// A whole text as one finite or non-finite number ("1e3", "nan"), without regard to the locale; blanks
+/// around it are allowed. Anything else: std::nullopt.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
-/// One tetrahedron per line: "E" or "E,nu,density", the same on every line. A first line without any number is
-/// a header; blank lines at the end are allowed, blank lines between rows are not.
+/// One tetrahedron per line: "E" or "E,nu,density", the same on every line. A first line without any number
+/// is a header; blank lines at the end are allowed, blank lines between rows are not.
 /// @throws bad_input "line 7: ..." (lines counted from 1)
 [[nodiscard]] ValueTable parse_value_csv(std::string_view text);
 

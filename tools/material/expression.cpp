@@ -22,8 +22,8 @@ std::size_t find_assignment(const std::string& text) {
 }
 
 [[noreturn]] void refuse(const std::string& expression, std::size_t position, const std::string& reason) {
-    fail_usage(fmt::format("the expression \"{}\" cannot be read at character {}: {}", expression, position + 1,
-                           reason));
+    fail_usage(fmt::format("the expression \"{}\" cannot be read at character {}: {}", expression,
+                           position + 1, reason));
 }
 
 }  // namespace
@@ -52,6 +52,8 @@ std::vector<double> evaluate_expression(const TetMesh& mesh, const std::string& 
     return values;
 }
 
-std::string expression_library() { return "muParser " + mu::Parser().GetVersion(mu::pviBRIEF); }
+std::string expression_library() {
+    return "muParser " + mu::Parser().GetVersion(mu::pviBRIEF);
+}
 
 }  // namespace knead::tools

@@ -12,62 +12,16 @@
 #include "knead/formats/write/write.h"
 #include "material/csv.h"
 #include "material/expression.h"
+#include "material/options.h"
 #include "material/request.h"
-#include "material/scenario.h"
 
 namespace knead::tools {
 namespace {
 
-struct Arguments {
-    std::filesystem::path mesh;
-    std::filesystem::path output;
-    std::vector<std::string> regions;
-    std::filesystem::path region_table;
-    std::filesystem::path csv;
-    MaterialRequest request;
-};
-
-void declare_sources(CLI::App& app, Arguments& arguments) {
-    MaterialRequest& request = arguments.request;
-    CLI::App* source = app.add_option_group("Elasticity (exactly one)");
-    source->add_option("--uniform", request.uniform_pa, "one Young's modulus everywhere, Pa")->type_name("E");
-    source->add_option("--scenario", request.scenario, "one of the paper's nine layouts, drawn with --seed")
-        ->check(CLI::Range(kFirstScenario, kLastScenario))
-        ->type_name("N");
-    source->add_option("--region", arguments.regions, "values of one region in Pa, -, kg/m^3; once for each region")
-        ->allow_extra_args(false)
-        ->type_name("NAME=E,NU,DENSITY");
-    source->add_option("--region-table", arguments.region_table, "the same from a CSV: region,E,nu,density")
-        ->type_name("FILE");
-    source->add_option("--array", request.array, "Young's moduli in Pa from a cell array of the mesh")
-        ->type_name("NAME");
-    source->add_flag("--from-mesh", request.from_mesh,
-                     "cell arrays youngs_modulus_pa and, if there, poissons_ratio and density_kg_per_m3");
-    source->add_option("--csv", arguments.csv, "CSV with a line per tetrahedron: E, or E,nu,density")
-        ->type_name("FILE");
-    source->add_option("--expression", request.expression, "formula of x, y, z in metres that gives Pa")
-        ->type_name("TEXT");
-    source->require_option(1);
-}
-
-void declare(CLI::App& app, Arguments& arguments) {
-    MaterialRequest& request = arguments.request;
-    app.add_option("MESH", arguments.mesh, "tetrahedral mesh")->required()->group("Inputs");
-    app.add_option("-o,--output", arguments.output, "mesh with material to write; replaced only once complete")
-        ->required()
-        ->type_name("FILE");
-    declare_sources(app, arguments);
-    app.add_option("--poissons-ratio", request.poissons_ratio, "where the source has none [0.3]")->type_name("NU");
-    auto* density = app.add_option("--density", request.density_kg_per_m3, "kg/m^3, where the source has none [1000]")
-                        ->type_name("D");
-    app.add_option("--total-mass", request.total_mass_kg, "instead: the density with which all of it weighs this")
-        ->type_name("KG")
-        ->excludes(density);
-}
-
 using Inputs = decltype(Provenance::inputs);
 
-std::string read_text(ToolContext& context, const std::filesystem::path& file, const char* role, Inputs& inputs) {
+std::string read_text(ToolContext& context, const std::filesystem::path& file, const char* role,
+                      Inputs& inputs) {
     context.add_input(file);
     std::ifstream stream(file, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(stream), {}};
@@ -101,14 +55,15 @@ void read_tables(ToolContext& context, Arguments& arguments, Inputs& inputs) {
     }
 }
 
-void report(const ToolContext& context, const Arguments& arguments, const MaterialObject& object, double seconds) {
+void report(const ToolContext& context, const Arguments& arguments, const MaterialObject& object,
+            double seconds) {
     const auto& moduli = object.material.youngs_modulus_pa;
     const auto [low, high] = std::minmax_element(moduli.begin(), moduli.end());
     double mass_kg = 0;
     for (std::size_t i = 0; i < moduli.size(); ++i)
         mass_kg += signed_volume_m3(object.mesh, i) * object.material.density_kg_per_m3[i];
-    context.tell(fmt::format("{}: {} tetrahedra, E from {:.6g} to {:.6g} Pa, {:.6g} kg", arguments.output.string(),
-                             moduli.size(), *low, *high, mass_kg));
+    context.tell(fmt::format("{}: {} tetrahedra, E from {:.6g} to {:.6g} Pa, {:.6g} kg",
+                             arguments.output.string(), moduli.size(), *low, *high, mass_kg));
     const nlohmann::ordered_json report{{"tetrahedra", moduli.size()},
                                         {"lowest_youngs_modulus_pa", *low},
                                         {"highest_youngs_modulus_pa", *high},
@@ -145,11 +100,12 @@ ExitCode run(ToolContext& context, Arguments& arguments) {
 int main(int argc, char** argv) {
     using namespace knead::tools;
     Arguments arguments;
-    const ToolInfo info{.name = "knead-material",
-                        .purpose = "attach elasticity, Poisson's ratio and density to each tetrahedron.",
-                        .example = "knead-material cube.mesh.hdf --scenario 1 --total-mass 1 -o cube.material.hdf",
-                        .libraries = {expression_library()},
-                        .uses_seed = true};
+    const ToolInfo info{
+        .name = "knead-material",
+        .purpose = "attach elasticity, Poisson's ratio and density to each tetrahedron.",
+        .example = "knead-material cube.mesh.hdf --scenario 1 --total-mass 1 -o cube.material.hdf",
+        .libraries = {expression_library()},
+        .uses_seed = true};
     return run_tool(
         argc, argv, info, [&](CLI::App& app) { declare(app, arguments); },
         [&](ToolContext& context) { return run(context, arguments); });

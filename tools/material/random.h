@@ -25,14 +25,16 @@ class Random {
     std::uint64_t below(std::uint64_t count) {
         const std::uint64_t unbiased_end = UINT64_MAX - UINT64_MAX % count;
         std::uint64_t bits = engine_();
-        while (bits >= unbiased_end) bits = engine_();
+        while (bits >= unbiased_end)
+            bits = engine_();
         return bits % count;
     }
 
     /// Fisher-Yates.
     template <class T>
     void shuffle(std::vector<T>& values) {
-        for (std::size_t left = values.size(); left > 1; --left) std::swap(values[left - 1], values[below(left)]);
+        for (std::size_t left = values.size(); left > 1; --left)
+            std::swap(values[left - 1], values[below(left)]);
     }
 
   private:

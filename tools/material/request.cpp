@@ -53,7 +53,9 @@ Sourced from_source(const TetMesh& mesh, const MaterialRequest& request, const M
     if (request.array)
         return {material_of_array(mesh, *request.array, defaults), {"--array", *request.array}};
     if (request.from_mesh)
-        return {material_of_mesh(mesh, defaults), {"--from-mesh"}, has_array(mesh, kPoissonsRatioArray),
+        return {material_of_mesh(mesh, defaults),
+                {"--from-mesh"},
+                has_array(mesh, kPoissonsRatioArray),
                 has_array(mesh, kDensityArray)};
     if (request.table) return from_table(mesh, *request.table, defaults);
     if (request.expression)

@@ -11,7 +11,8 @@
 
 namespace knead::tools {
 
-/// What a user asks knead-material for: exactly one source of elasticities, and values for what it leaves open.
+/// What a user asks knead-material for: exactly one source of elasticities, and values for what it leaves
+/// open.
 struct MaterialRequest {
     std::optional<double> uniform_pa;
     std::optional<int> scenario;

@@ -26,7 +26,8 @@ constexpr double kCentralHalfSide = 0.2;
 /// Barycentre in the bounding box, each coordinate in [0, 1].
 class RelativePosition {
   public:
-    explicit RelativePosition(const TetMesh& mesh) : mesh_(mesh), low_(mesh.nodes_m[0]), high_(mesh.nodes_m[0]) {
+    explicit RelativePosition(const TetMesh& mesh)
+        : mesh_(mesh), low_(mesh.nodes_m[0]), high_(mesh.nodes_m[0]) {
         for (const Point& node : mesh.nodes_m)
             for (int axis = 0; axis < 3; ++axis) {
                 low_[axis] = std::min(low_[axis], node[axis]);
@@ -68,24 +69,35 @@ Layout layout_of(int scenario) {
     constexpr auto kLayers = [](const Point& position) { return slab(position[2], 3); };
     constexpr auto kCentre = [](const Point& position) { return is_central(position) ? 1 : 0; };
     switch (scenario) {
-        case 1: return {{false, true}, kHalves};
-        case 2: return {{true, false}, kHalves};
-        case 3: return {{true, false, true}, kColumns};
-        case 4: return {{false, true, false}, kColumns};
-        case 5: return {{false, true, false}, kLayers};
-        case 6: return {{true, false, true}, kLayers};
-        case 7: return {{true, false}, kCentre};
-        case 8: return {{false, true}, kCentre};
-        default: fail_usage("scenario " + std::to_string(scenario) + " has no zones (only 1 to 8 have)");
+        case 1:
+            return {{false, true}, kHalves};
+        case 2:
+            return {{true, false}, kHalves};
+        case 3:
+            return {{true, false, true}, kColumns};
+        case 4:
+            return {{false, true, false}, kColumns};
+        case 5:
+            return {{false, true, false}, kLayers};
+        case 6:
+            return {{true, false, true}, kLayers};
+        case 7:
+            return {{true, false}, kCentre};
+        case 8:
+            return {{false, true}, kCentre};
+        default:
+            fail_usage("scenario " + std::to_string(scenario) + " has no zones (only 1 to 8 have)");
     }
 }
 
 void fill_zone(const ScenarioZone& zone, Random& random, std::vector<double>& youngs_modulus_pa) {
     std::vector<bool> stiff(zone.tetrahedra.size(), false);
     std::vector<std::uint32_t> order(zone.tetrahedra.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+        order[i] = i;
     random.shuffle(order);
-    for (std::size_t i = 0; i < stiff_count(zone); ++i) stiff[order[i]] = true;
+    for (std::size_t i = 0; i < stiff_count(zone); ++i)
+        stiff[order[i]] = true;
     for (std::size_t i = 0; i < order.size(); ++i) {
         const Range& range = stiff[i] ? kStiff : kSoft;
         youngs_modulus_pa[zone.tetrahedra[i]] = random.uniform(range.low_pa, range.high_pa);
@@ -98,7 +110,8 @@ std::vector<ScenarioZone> scenario_zones(const TetMesh& mesh, int scenario) {
     const Layout layout = layout_of(scenario);
     const RelativePosition relative_position(mesh);
     std::vector<ScenarioZone> zones(layout.zone_is_stiff.size());
-    for (std::size_t zone = 0; zone < zones.size(); ++zone) zones[zone].stiff = layout.zone_is_stiff[zone];
+    for (std::size_t zone = 0; zone < zones.size(); ++zone)
+        zones[zone].stiff = layout.zone_is_stiff[zone];
     for (std::uint32_t tetrahedron = 0; tetrahedron < mesh.tetrahedra.size(); ++tetrahedron)
         zones[layout.zone_at(relative_position(tetrahedron))].tetrahedra.push_back(tetrahedron);
     std::erase_if(zones, [](const ScenarioZone& zone) { return zone.tetrahedra.empty(); });

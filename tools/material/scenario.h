@@ -14,8 +14,8 @@ inline constexpr int kLastScenario = 9;
 
 /// A zone of a scenario: a connected part of the bounding box in which the elasticities are mixed alike.
 struct ScenarioZone {
-    bool stiff = false;                          ///< two thirds stiff; otherwise two thirds soft
-    std::vector<std::uint32_t> tetrahedra;       ///< increasing indices, by barycentre
+    bool stiff = false;                     ///< two thirds stiff; otherwise two thirds soft
+    std::vector<std::uint32_t> tetrahedra;  ///< increasing indices, by barycentre
 };
 
 /// The zones of scenarios 1 to 8 in the bounding box of the mesh; z is up, the press comes along z.

@@ -33,7 +33,8 @@ const std::string& nearest_name(const std::string& name, const std::vector<std::
     });
 }
 
-[[noreturn]] void refuse_name(const char* what, const std::string& name, const std::vector<std::string>& known) {
+[[noreturn]] void refuse_name(const char* what, const std::string& name,
+                              const std::vector<std::string>& known) {
     if (known.empty()) fail_input(fmt::format("the mesh has no {} \"{}\": it has none at all", what, name));
     fail_input(fmt::format("the mesh has no {} \"{}\"; did you mean \"{}\"? (it has: {})", what, name,
                            nearest_name(name, known), fmt::join(known, ", ")));
@@ -46,7 +47,8 @@ const std::vector<double>* find_array(const TetMesh& mesh, const std::string& na
 }
 
 /// The values given for each region of the mesh.
-std::vector<const RegionValues*> match_regions(const Regions& regions, const std::vector<RegionValues>& values) {
+std::vector<const RegionValues*> match_regions(const Regions& regions,
+                                               const std::vector<RegionValues>& values) {
     std::vector<const RegionValues*> of_region(regions.names.size(), nullptr);
     for (const RegionValues& given : values) {
         const auto found = std::find(regions.names.begin(), regions.names.end(), given.region);
@@ -90,7 +92,8 @@ Material material_of_array(const TetMesh& mesh, const std::string& name, const M
     const std::vector<double>* values = find_array(mesh, name);
     if (values == nullptr) {
         std::vector<std::string> known;
-        for (const CellArray& array : mesh.cell_arrays) known.push_back(array.name);
+        for (const CellArray& array : mesh.cell_arrays)
+            known.push_back(array.name);
         refuse_name("cell array", name, known);
     }
     return material_of_table(mesh, {*values, {}, {}}, defaults);
@@ -117,7 +120,8 @@ Material material_of_table(const TetMesh& mesh, const ValueTable& table, const M
 
 void set_total_mass(const TetMesh& mesh, double total_mass_kg, Material& material) {
     double volume_m3 = 0;
-    for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) volume_m3 += signed_volume_m3(mesh, i);
+    for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i)
+        volume_m3 += signed_volume_m3(mesh, i);
     material.density_kg_per_m3.assign(mesh.tetrahedra.size(), total_mass_kg / volume_m3);
 }
 

@@ -46,7 +46,8 @@ struct ValueTable {
 [[nodiscard]] Material material_of_array(const TetMesh& mesh, const std::string& name,
                                          const MaterialDefaults& defaults);
 
-/// E from the array youngs_modulus_pa, nu and density from poissons_ratio and density_kg_per_m3 where they are.
+/// E from the array youngs_modulus_pa, nu and density from poissons_ratio and density_kg_per_m3 where they
+/// are.
 [[nodiscard]] Material material_of_mesh(const TetMesh& mesh, const MaterialDefaults& defaults);
 
 /// Values by tetrahedron. @throws bad_input unless the table has exactly one row per tetrahedron

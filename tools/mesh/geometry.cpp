@@ -38,7 +38,8 @@ void require_valid(const std::array<std::uint32_t, 3>& divisions, const std::arr
     }
 }
 
-std::vector<Point> make_nodes(const std::array<std::uint32_t, 3>& divisions, const std::array<double, 3>& size_m) {
+std::vector<Point> make_nodes(const std::array<std::uint32_t, 3>& divisions,
+                              const std::array<double, 3>& size_m) {
     // Each coordinate is computed from its own index, so that opposite faces are exactly 0 and the size.
     const auto coordinate = [&](int axis, std::uint32_t i) {
         return i == divisions[axis] ? size_m[axis] : size_m[axis] * i / divisions[axis];

@@ -26,7 +26,8 @@ struct TaggedTetrahedron {
 std::vector<std::size_t> order_by(const std::vector<std::size_t>& values) {
     std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
     return order;
 }
 
@@ -74,11 +75,16 @@ std::vector<TaggedTetrahedron> extract_tetrahedra(RawMesh& mesh) {
                 continue;
             }
             for (std::size_t e = 0; e < elements[i].size(); ++e)
-                tetrahedra.push_back({elements[i][e], {nodes[i][4 * e], nodes[i][4 * e + 1], nodes[i][4 * e + 2], nodes[i][4 * e + 3]}, tag});
+                tetrahedra.push_back(
+                    {elements[i][e],
+                     {nodes[i][4 * e], nodes[i][4 * e + 1], nodes[i][4 * e + 2], nodes[i][4 * e + 3]},
+                     tag});
         }
     }
-    for (const auto& [type, count] : others) mesh.other_cells.emplace_back(plural_name(type), count);
-    std::sort(tetrahedra.begin(), tetrahedra.end(), [](const auto& a, const auto& b) { return a.tag < b.tag; });
+    for (const auto& [type, count] : others)
+        mesh.other_cells.emplace_back(plural_name(type), count);
+    std::sort(tetrahedra.begin(), tetrahedra.end(),
+              [](const auto& a, const auto& b) { return a.tag < b.tag; });
     return tetrahedra;
 }
 
@@ -89,7 +95,9 @@ std::string group_name(int volume, RawMesh& mesh) {
     if (groups.empty()) return {};
     std::sort(groups.begin(), groups.end());
     if (groups.size() > 1)
-        mesh.notes.push_back({true, fmt::format("volume {} is in {} physical groups; the one with the smallest number is kept", volume, groups.size())});
+        mesh.notes.push_back(
+            {true, fmt::format("volume {} is in {} physical groups; the one with the smallest number is kept",
+                               volume, groups.size())});
     std::string name;
     gmsh::model::getPhysicalName(3, groups[0], name);
     return name.empty() ? fmt::format("physical_{}", groups[0]) : name;
@@ -97,7 +105,8 @@ std::string group_name(int volume, RawMesh& mesh) {
 
 void extract_regions(const std::vector<TaggedTetrahedron>& tetrahedra, RawMesh& mesh) {
     std::map<int, std::string> name_of_volume;
-    for (const TaggedTetrahedron& tetrahedron : tetrahedra) name_of_volume.try_emplace(tetrahedron.volume);
+    for (const TaggedTetrahedron& tetrahedron : tetrahedra)
+        name_of_volume.try_emplace(tetrahedron.volume);
     bool any = false;
     for (auto& [volume, name] : name_of_volume) {
         name = group_name(volume, mesh);
@@ -161,7 +170,8 @@ RawMesh extract_mesh(ExtractNodes which) {
     extract_regions(tetrahedra, mesh);
     std::vector<int> views;
     gmsh::view::getTags(views);
-    for (const int view : views) extract_view(view, mesh);
+    for (const int view : views)
+        extract_view(view, mesh);
     return mesh;
 }
 

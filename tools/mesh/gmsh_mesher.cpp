@@ -77,7 +77,9 @@ void require_possible(const Extent& extent, const MeshSize& size, double metres_
     if (!size.edge_length_m) return;
     const double edge = *size.edge_length_m / metres_per_unit;
     if (extent.box_volume / (0.12 * edge * edge * edge) > 4 * kMaxTetrahedra)
-        fail_usage(fmt::format("an edge length of {:g} m is too small for this object: more than {:g} tetrahedra", *size.edge_length_m, kMaxTetrahedra));
+        fail_usage(
+            fmt::format("an edge length of {:g} m is too small for this object: more than {:g} tetrahedra",
+                        *size.edge_length_m, kMaxTetrahedra));
 }
 
 }  // namespace
@@ -89,12 +91,13 @@ GeneratedMesh mesh_to_size(const std::function<void()>& build, const MeshSize& s
     require_possible(extent, size, metres_per_unit);
     GeneratedMesh generated;
     generated.metres_per_unit = metres_per_unit;
-    double edge_length = size.edge_length_m ? *size.edge_length_m / metres_per_unit : extent.longest / kDefaultEdgesAcross;
+    double edge_length =
+        size.edge_length_m ? *size.edge_length_m / metres_per_unit : extent.longest / kDefaultEdgesAcross;
     double meshed_with = 0;
     Notes notes;
     if (size.target_tetrahedra) {
-        const SizeSearchResult found =
-            search_edge_length(*size.target_tetrahedra, extent.longest / kFirstTrialEdgesAcross, [&](double& length) {
+        const SizeSearchResult found = search_edge_length(
+            *size.target_tetrahedra, extent.longest / kFirstTrialEdgesAcross, [&](double& length) {
                 const std::size_t count = generate_near(build, length);
                 meshed_with = length;
                 return count;
@@ -102,7 +105,8 @@ GeneratedMesh mesh_to_size(const std::function<void()>& build, const MeshSize& s
         edge_length = found.edge_length;
         generated.meshings = found.meshings;
         if (!found.within_tolerance)
-            notes.push_back({true, fmt::format("{} tetrahedra wanted, {} are the nearest found", *size.target_tetrahedra, found.count)});
+            notes.push_back({true, fmt::format("{} tetrahedra wanted, {} are the nearest found",
+                                               *size.target_tetrahedra, found.count)});
     }
     if (meshed_with != edge_length) generate(build, edge_length);
     generated.edge_length_m = edge_length * metres_per_unit;

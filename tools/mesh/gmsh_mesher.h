@@ -25,16 +25,18 @@ struct GeneratedMesh {
 
 // The rest is between the gmsh_*.cpp files.
 
-/// Which nodes extract_mesh() takes: all, or those of the volumes (without the points a curve was drawn through).
+/// Which nodes extract_mesh() takes: all, or those of the volumes (without the points a curve was drawn
+/// through).
 enum class ExtractNodes { all, of_volumes };
 
-/// The mesh of gmsh's current model: nodes and tetrahedra in the order of their tags, physical volumes as regions,
-/// element data as cell arrays, other cells counted.
+/// The mesh of gmsh's current model: nodes and tetrahedra in the order of their tags, physical volumes as
+/// regions, element data as cell arrays, other cells counted.
 [[nodiscard]] RawMesh extract_mesh(ExtractNodes which);
 
 /// Meshes with the edge length asked for, or searches the one that gives the number of tetrahedra asked for.
 /// Needs an open GmshSession.
-/// @param build makes the geometry in an empty model; called before every meshing, so that no trial depends on
+/// @param build makes the geometry in an empty model; called before every meshing, so that no trial depends
+/// on
 ///        the ones before it
 [[nodiscard]] GeneratedMesh mesh_to_size(const std::function<void()>& build, const MeshSize& size,
                                          double metres_per_unit);

@@ -14,10 +14,13 @@ namespace {
 
 /// OpenCASCADE works with an absolute tolerance of 1e-7, made for millimetres.
 constexpr double kMetresPerUnit = 1e-3;
-double mm(double metres) { return metres / kMetresPerUnit; }
+double mm(double metres) {
+    return metres / kMetresPerUnit;
+}
 
 void require_length(double length_m, const char* what) {
-    if (!std::isfinite(length_m) || length_m <= 0) fail_usage(std::string(what) + " must be finite and greater than 0");
+    if (!std::isfinite(length_m) || length_m <= 0)
+        fail_usage(std::string(what) + " must be finite and greater than 0");
 }
 
 GeneratedMesh mesh_solid(const MeshSize& size, const std::function<void()>& build) {
@@ -34,10 +37,12 @@ GeneratedMesh mesh_solid(const MeshSize& size, const std::function<void()>& buil
 int add_face(const OutlineSlab& slab) {
     namespace occ = gmsh::model::occ;
     std::vector<int> points;
-    for (const auto& corner : slab.corners_m) points.push_back(occ::addPoint(mm(corner[0]), mm(corner[1]), 0));
+    for (const auto& corner : slab.corners_m)
+        points.push_back(occ::addPoint(mm(corner[0]), mm(corner[1]), 0));
     std::vector<int> curves;
     if (slab.polygon) {
-        for (std::size_t i = 0; i < points.size(); ++i) curves.push_back(occ::addLine(points[i], points[(i + 1) % points.size()]));
+        for (std::size_t i = 0; i < points.size(); ++i)
+            curves.push_back(occ::addLine(points[i], points[(i + 1) % points.size()]));
     } else {
         points.push_back(points.front());
         curves.push_back(occ::addSpline(points));
@@ -78,8 +83,10 @@ void add_slab(const OutlineSlab& slab) {
 }  // namespace
 
 GeneratedMesh mesh_box(const std::array<double, 3>& size_m, const MeshSize& size) {
-    for (const double side : size_m) require_length(side, "each side of the box");
-    return mesh_solid(size, [&] { gmsh::model::occ::addBox(0, 0, 0, mm(size_m[0]), mm(size_m[1]), mm(size_m[2])); });
+    for (const double side : size_m)
+        require_length(side, "each side of the box");
+    return mesh_solid(
+        size, [&] { gmsh::model::occ::addBox(0, 0, 0, mm(size_m[0]), mm(size_m[1]), mm(size_m[2])); });
 }
 
 GeneratedMesh mesh_sphere(double radius_m, const MeshSize& size) {
@@ -90,11 +97,13 @@ GeneratedMesh mesh_sphere(double radius_m, const MeshSize& size) {
 GeneratedMesh mesh_cylinder(double radius_m, double height_m, const MeshSize& size) {
     require_length(radius_m, "the radius");
     require_length(height_m, "the height");
-    return mesh_solid(size, [&] { gmsh::model::occ::addCylinder(0, 0, 0, 0, 0, mm(height_m), mm(radius_m)); });
+    return mesh_solid(size,
+                      [&] { gmsh::model::occ::addCylinder(0, 0, 0, 0, 0, mm(height_m), mm(radius_m)); });
 }
 
 GeneratedMesh mesh_ellipsoid(const std::array<double, 3>& radii_m, const MeshSize& size) {
-    for (const double radius : radii_m) require_length(radius, "each radius");
+    for (const double radius : radii_m)
+        require_length(radius, "each radius");
     return mesh_solid(size, [&] {
         const int ball = gmsh::model::occ::addSphere(0, 0, 0, 1);
         gmsh::model::occ::dilate({{3, ball}}, 0, 0, 0, mm(radii_m[0]), mm(radii_m[1]), mm(radii_m[2]));
@@ -109,7 +118,8 @@ GeneratedMesh mesh_outline(const OutlineSlab& slab, const MeshSize& size) {
         return mesh_solid(size, [&] { add_slab(slab); });
     } catch (const ToolError& error) {
         if (slab.round_m == 0 || error.code() != ExitCode::no_valid_result) throw;
-        fail_result(std::string(error.what()) + "; rounded edges at sharp corners often fail: try without --round");
+        fail_result(std::string(error.what()) +
+                    "; rounded edges at sharp corners often fail: try without --round");
     }
 }
 

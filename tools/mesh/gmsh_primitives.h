@@ -8,8 +8,8 @@
 
 namespace knead::tools {
 
-// Solids of OpenCASCADE, meshed by gmsh. All lengths in metres, > 0 and finite (bad_usage otherwise); z is up.
-// Errors: bad_usage, no_valid_result when gmsh cannot make the geometry or the mesh.
+// Solids of OpenCASCADE, meshed by gmsh. All lengths in metres, > 0 and finite (bad_usage otherwise); z is
+// up. Errors: bad_usage, no_valid_result when gmsh cannot make the geometry or the mesh.
 
 /// The box [0, size].
 [[nodiscard]] GeneratedMesh mesh_box(const std::array<double, 3>& size_m, const MeshSize& size);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/gmsh_session.h"
 
+#include <fcntl.h>
 #include <gmsh.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -75,7 +79,9 @@ GmshSession::~GmshSession() {
 }
 
 void call_gmsh(ExitCode code, const std::string& what, const std::function<void()>& calls) {
-    const auto fail = [&](const std::string& words) { throw ToolError(code, what + (words.empty() ? "" : ": " + words)); };
+    const auto fail = [&](const std::string& words) {
+        throw ToolError(code, what + (words.empty() ? "" : ": " + words));
+    };
     const QuietStdout quiet;
     const Log log;
     try {
@@ -95,11 +101,35 @@ void call_gmsh(ExitCode code, const std::string& what, const std::function<void(
     if (!error.empty()) fail(error);
 }
 
-std::string gmsh_version() { return "gmsh " GMSH_API_VERSION; }
+void require_no_crash(const std::function<void()>& calls) {
+    const pid_t child = fork();
+    if (child < 0) fail_result("cannot start a process to read the file in");
+    if (child == 0) {
+        const int nowhere = open("/dev/null", O_WRONLY);
+        dup2(nowhere, STDOUT_FILENO);
+        dup2(nowhere, STDERR_FILENO);
+        const rlimit no_core{0, 0};
+        setrlimit(RLIMIT_CORE, &no_core);
+        try {
+            calls();
+        } catch (...) {  // the real run says what it is
+        }
+        _exit(0);
+    }
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (WIFSIGNALED(status)) fail_input("the file is damaged: gmsh crashes on it");
+}
+
+std::string gmsh_version() {
+    return "gmsh API " GMSH_API_VERSION;
+}
 
 PrivateCopy::PrivateCopy(std::string_view content, const std::string& extension) {
     std::string pattern = (std::filesystem::temp_directory_path() / "knead-mesh-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw ToolError(ExitCode::cannot_write, pattern + ": cannot make a folder for temporary files");
+    if (mkdtemp(pattern.data()) == nullptr)
+        throw ToolError(ExitCode::cannot_write, pattern + ": cannot make a folder for temporary files");
     folder_ = pattern;
     file_ = folder_ / ("content" + extension);
     std::ofstream stream(file_, std::ios::binary);

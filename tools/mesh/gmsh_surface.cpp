@@ -26,9 +26,9 @@ struct Placement {
     explicit Placement(const TriangleSurface& surface) {
         double longest = 0;
         for (int axis = 0; axis < 3; ++axis) {
-            const auto [low, high] = std::minmax_element(
-                surface.points.begin(), surface.points.end(),
-                [axis](const Point& a, const Point& b) { return a[axis] < b[axis]; });
+            const auto [low, high] =
+                std::minmax_element(surface.points.begin(), surface.points.end(),
+                                    [axis](const Point& a, const Point& b) { return a[axis] < b[axis]; });
             longest = std::max(longest, (*high)[axis] - (*low)[axis]);
         }
         // A power of two: scaling there and back changes no bit of a coordinate.
@@ -66,13 +66,15 @@ void add_shells(const ClosedSurface& closed, const Placement& placement, std::si
         gmsh::model::mesh::addElementsByType(static_cast<int>(shell) + 1, kTriangle, {}, corners[shell]);
 }
 
-/// Splits the discrete surfaces along sharp edges and gives them a geometry that can be meshed anew. Returns the
-/// faces of every shell, found by the place of one of their corners.
-std::vector<std::vector<int>> make_remeshable(const ClosedSurface& closed, const Placement& placement, std::size_t shells) {
+/// Splits the discrete surfaces along sharp edges and gives them a geometry that can be meshed anew. Returns
+/// the faces of every shell, found by the place of one of their corners.
+std::vector<std::vector<int>> make_remeshable(const ClosedSurface& closed, const Placement& placement,
+                                              std::size_t shells) {
     std::map<Point, std::uint32_t> shell_at;
     for (std::size_t t = 0; t < closed.surface.triangles.size(); ++t)
         for (const std::uint32_t point : closed.surface.triangles[t])
-            shell_at.try_emplace(placement.to_model(closed.surface.points[point]), closed.shell_of_triangle[t]);
+            shell_at.try_emplace(placement.to_model(closed.surface.points[point]),
+                                 closed.shell_of_triangle[t]);
     gmsh::model::mesh::classifySurfaces(kSharpEdge_rad, true, true, std::numbers::pi);
     gmsh::model::mesh::createGeometry();
     std::vector<std::vector<int>> faces(shells);
@@ -94,14 +96,17 @@ std::vector<std::vector<int>> make_remeshable(const ClosedSurface& closed, const
 }
 
 void build_model(const ClosedSurface& closed, const Placement& placement, bool remesh) {
-    const std::size_t shells = 1 + *std::max_element(closed.shell_of_triangle.begin(), closed.shell_of_triangle.end());
+    const std::size_t shells =
+        1 + *std::max_element(closed.shell_of_triangle.begin(), closed.shell_of_triangle.end());
     add_shells(closed, placement, shells);
     std::vector<std::vector<int>> faces(shells);
-    for (std::size_t shell = 0; shell < shells; ++shell) faces[shell] = {static_cast<int>(shell) + 1};
+    for (std::size_t shell = 0; shell < shells; ++shell)
+        faces[shell] = {static_cast<int>(shell) + 1};
     if (remesh) faces = make_remeshable(closed, placement, shells);
     for (const auto& body : closed.bodies) {
         std::vector<int> loops;
-        for (const std::uint32_t shell : body) loops.push_back(gmsh::model::geo::addSurfaceLoop(faces[shell]));
+        for (const std::uint32_t shell : body)
+            loops.push_back(gmsh::model::geo::addSurfaceLoop(faces[shell]));
         gmsh::model::geo::addVolume(loops);
     }
     gmsh::model::geo::synchronize();

@@ -18,20 +18,21 @@ struct ImportRequest {
     MeshSize size;                          ///< for solids and surfaces only
     bool merge_duplicate_nodes = false;     ///< for meshes only, like the next
     bool repair_orientation = false;
-    IncludeReader include;                  ///< reads the files that a .veg includes
+    IncludeReader include;  ///< reads the files that a .veg includes
 };
 
 /// A mesh and what there is to say about it.
 struct MadeMesh {
     TetMesh mesh;
     Notes notes;
-    std::string source;       ///< "a STEP file", "a sphere": what it was made of
-    double edge_length_m = 0; ///< 0: not made with one
+    std::string source;        ///< "a STEP file", "a sphere": what it was made of
+    double edge_length_m = 0;  ///< 0: not made with one
     int meshings = 0;
 };
 
 /// Recognises the content, checks it, and reads or meshes it.
-/// Errors: bad_usage when the unit is missing or an option does not fit the format, bad_input, no_valid_result.
+/// Errors: bad_usage when the unit is missing or an option does not fit the format, bad_input,
+/// no_valid_result.
 [[nodiscard]] MadeMesh import_mesh(std::string_view content, const ImportRequest& request);
 
 /// What gmsh made of a geometry of ours, checked like any other mesh.

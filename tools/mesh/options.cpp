@@ -8,7 +8,8 @@
 namespace knead::tools {
 namespace {
 
-CLI::App* add_command(CLI::App& app, MeshOptions& options, const std::string& name, const std::string& purpose) {
+CLI::App* add_command(CLI::App& app, MeshOptions& options, const std::string& name,
+                      const std::string& purpose) {
     CLI::App* command = app.add_subcommand(name, purpose);
     command->fallthrough();  // the common options stand behind the command's own
     command->callback([&options, name] { options.command = name; });
@@ -19,41 +20,56 @@ CLI::App* add_command(CLI::App& app, MeshOptions& options, const std::string& na
 }
 
 void add_lengths(CLI::App* command, const std::string& name, MeshOptions& options, const std::string& text) {
-    command->add_option(name, options.lengths, text + "; one length for all three, or three (\"4mm\", \"0.1\")")
+    command
+        ->add_option(name, options.lengths, text + "; one length for all three, or three (\"4mm\", \"0.1\")")
         ->type_name("LENGTH")
         ->expected(1, 3)
         ->required();
 }
 
-void add_length(CLI::App* command, const std::string& name, std::string& value, const std::string& text, bool required) {
+void add_length(CLI::App* command, const std::string& name, std::string& value, const std::string& text,
+                bool required) {
     auto* option = command->add_option(name, value, text)->type_name("LENGTH");
     if (required) option->required();
 }
 
 void add_mesh_size(CLI::App* command, MeshOptions& options) {
-    auto* target = command->add_option("--target-tetrahedra", options.target_tetrahedra, "aim for this number, within 3 %")
-                       ->type_name("N")
-                       ->check(CLI::Range(std::size_t{1}, std::size_t{50'000'000}));
-    command->add_option("--edge-length", options.edge_length, "length of the edges to aim for")->type_name("LENGTH")->excludes(target);
+    auto* target =
+        command
+            ->add_option("--target-tetrahedra", options.target_tetrahedra, "aim for this number, within 3 %")
+            ->type_name("N")
+            ->check(CLI::Range(std::size_t{1}, std::size_t{50'000'000}));
+    command->add_option("--edge-length", options.edge_length, "length of the edges to aim for")
+        ->type_name("LENGTH")
+        ->excludes(target);
 }
 
 void add_import(CLI::App& app, MeshOptions& options) {
-    CLI::App* command = add_command(app, options, "import",
-                                    "STEP or BREP solids and closed surfaces (STL, PLY), meshed; or an existing mesh (MSH, "
-                                    "Medit, legacy VTK, VegaFEM)");
+    CLI::App* command =
+        add_command(app, options, "import",
+                    "STEP or BREP solids and closed surfaces (STL, PLY), meshed; or an existing mesh (MSH, "
+                    "Medit, legacy VTK, VegaFEM)");
     command->add_option("FILE", options.file, "file to import; its content decides how")->required();
-    command->add_option("--length-unit", options.length_unit, "unit of its coordinates: m, dm, cm, mm, um, in, ft; needed by all formats but STEP")
+    command
+        ->add_option("--length-unit", options.length_unit,
+                     "unit of its coordinates: m, dm, cm, mm, um, in, ft; needed by all formats but STEP")
         ->type_name("UNIT");
-    command->add_flag("--merge-duplicate-nodes", options.merge_duplicate_nodes, "join nodes of a mesh at exactly the same place");
-    command->add_flag("--repair-orientation", options.repair_orientation, "turn inverted tetrahedra of a mesh round even when only some are");
+    command->add_flag("--merge-duplicate-nodes", options.merge_duplicate_nodes,
+                      "join nodes of a mesh at exactly the same place");
+    command->add_flag("--repair-orientation", options.repair_orientation,
+                      "turn inverted tetrahedra of a mesh round even when only some are");
     add_mesh_size(command, options);
 }
 
-std::string number(double value) { return fmt::format("{}", value); }
+std::string number(double value) {
+    return fmt::format("{}", value);
+}
 
-void append_lengths(std::vector<std::string>& arguments, const char* option, const std::vector<std::string>& texts) {
+void append_lengths(std::vector<std::string>& arguments, const char* option,
+                    const std::vector<std::string>& texts) {
     arguments.emplace_back(option);
-    for (const double length : lengths_m(texts, option)) arguments.push_back(number(length));
+    for (const double length : lengths_m(texts, option))
+        arguments.push_back(number(length));
 }
 
 void append_length(std::vector<std::string>& arguments, const char* option, double length) {
@@ -65,8 +81,11 @@ void append_length(std::vector<std::string>& arguments, const char* option, doub
 
 void declare_options(CLI::App& app, MeshOptions& options) {
     app.require_subcommand(1);
-    CLI::App* cubes = add_command(app, options, "cubes", "a box of sub-cubes of six tetrahedra each, as in the paper");
-    cubes->add_option("--divisions", options.divisions, "sub-cubes along x, y and z; one number for all three, or three")
+    CLI::App* cubes =
+        add_command(app, options, "cubes", "a box of sub-cubes of six tetrahedra each, as in the paper");
+    cubes
+        ->add_option("--divisions", options.divisions,
+                     "sub-cubes along x, y and z; one number for all three, or three")
         ->type_name("N")
         ->expected(1, 3)
         ->required();
@@ -90,10 +109,16 @@ void declare_options(CLI::App& app, MeshOptions& options) {
     add_mesh_size(ellipsoid, options);
 
     CLI::App* outline = add_command(app, options, "outline", "a slab with a free outline, from z = 0 up");
-    outline->add_option("--points", options.file, "corners of the closed outline: x,y on each line")->type_name("FILE")->required();
-    outline->add_option("--length-unit", options.length_unit, "unit of the points: m, dm, cm, mm, um, in, ft [m]")->type_name("UNIT");
+    outline->add_option("--points", options.file, "corners of the closed outline: x,y on each line")
+        ->type_name("FILE")
+        ->required();
+    outline
+        ->add_option("--length-unit", options.length_unit,
+                     "unit of the points: m, dm, cm, mm, um, in, ft [m]")
+        ->type_name("UNIT");
     add_length(outline, "--thickness", options.thickness, "height of the slab", true);
-    outline->add_flag("--polygon", options.polygon, "straight sides instead of a smooth curve through the corners");
+    outline->add_flag("--polygon", options.polygon,
+                      "straight sides instead of a smooth curve through the corners");
     add_length(outline, "--round", options.round, "radius of the rounded upper and lower edges [0]", false);
     add_mesh_size(outline, options);
 
@@ -107,15 +132,18 @@ double length_m(const std::string& text, const char* option) {
 }
 
 std::array<double, 3> lengths_m(const std::vector<std::string>& texts, const char* option) {
-    if (texts.size() != 1 && texts.size() != 3) fail_usage(fmt::format("{}: one length or three, not {}", option, texts.size()));
+    if (texts.size() != 1 && texts.size() != 3)
+        fail_usage(fmt::format("{}: one length or three, not {}", option, texts.size()));
     const auto at = [&](std::size_t axis) { return length_m(texts[texts.size() == 1 ? 0 : axis], option); };
     return {at(0), at(1), at(2)};
 }
 
 std::array<std::uint32_t, 3> divisions(const MeshOptions& options) {
     const auto& d = options.divisions;
-    if (d.size() != 1 && d.size() != 3) fail_usage(fmt::format("--divisions: one number or three, not {}", d.size()));
-    return d.size() == 1 ? std::array<std::uint32_t, 3>{d[0], d[0], d[0]} : std::array<std::uint32_t, 3>{d[0], d[1], d[2]};
+    if (d.size() != 1 && d.size() != 3)
+        fail_usage(fmt::format("--divisions: one number or three, not {}", d.size()));
+    return d.size() == 1 ? std::array<std::uint32_t, 3>{d[0], d[0], d[0]}
+                         : std::array<std::uint32_t, 3>{d[0], d[1], d[2]};
 }
 
 MeshSize MeshOptions::size() const {
@@ -129,9 +157,11 @@ std::vector<std::string> canonical_arguments(const MeshOptions& options) {
     std::vector<std::string> arguments{options.command};
     if (options.command == "cubes") {
         arguments.emplace_back("--divisions");
-        for (const std::uint32_t n : divisions(options)) arguments.push_back(std::to_string(n));
+        for (const std::uint32_t n : divisions(options))
+            arguments.push_back(std::to_string(n));
     }
-    if (!options.lengths.empty()) append_lengths(arguments, options.command == "ellipsoid" ? "--radii" : "--size", options.lengths);
+    if (!options.lengths.empty())
+        append_lengths(arguments, options.command == "ellipsoid" ? "--radii" : "--size", options.lengths);
     if (!options.radius.empty()) append_length(arguments, "--radius", length_m(options.radius, "--radius"));
     if (!options.height.empty()) append_length(arguments, "--height", length_m(options.height, "--height"));
     if (options.command == "outline") {
@@ -149,7 +179,8 @@ std::vector<std::string> canonical_arguments(const MeshOptions& options) {
         arguments.emplace_back("--target-tetrahedra");
         arguments.push_back(std::to_string(*options.target_tetrahedra));
     }
-    if (!options.edge_length.empty()) append_length(arguments, "--edge-length", length_m(options.edge_length, "--edge-length"));
+    if (!options.edge_length.empty())
+        append_length(arguments, "--edge-length", length_m(options.edge_length, "--edge-length"));
     return arguments;
 }
 

@@ -13,7 +13,8 @@
 
 namespace knead::tools {
 
-/// The command line of knead-mesh as it was typed. Lengths are texts until length_m() and lengths_m() read them.
+/// The command line of knead-mesh as it was typed. Lengths are texts until length_m() and lengths_m() read
+/// them.
 struct MeshOptions {
     std::string command;  ///< "cubes", "box", "sphere", "cylinder", "ellipsoid", "outline" or "import"
     std::filesystem::path output;

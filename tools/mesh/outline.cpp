@@ -27,7 +27,8 @@ void require_simple(const std::vector<Corner>& corners) {
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = i + 2; j < n; ++j)
             if (cross(corners[i], corners[(i + 1) % n], corners[j], corners[(j + 1) % n]))
-                fail_input(fmt::format("the outline crosses itself: the sides after corners {} and {} (from 1)", i + 1, j + 1));
+                fail_input(fmt::format(
+                    "the outline crosses itself: the sides after corners {} and {} (from 1)", i + 1, j + 1));
 }
 
 }  // namespace
@@ -47,7 +48,8 @@ std::vector<Corner> read_outline(std::string_view content) {
         if (!to_number(words.next(), corner[0]) || !to_number(words.next(), corner[1]) || !words.at_end() ||
             !std::isfinite(corner[0]) || !std::isfinite(corner[1]))
             fail_input(fmt::format("line {}: two finite numbers, x and y, should stand here", line));
-        if (!corners.empty() && corners.back() == corner) fail_input(fmt::format("line {}: the same corner twice in a row", line));
+        if (!corners.empty() && corners.back() == corner)
+            fail_input(fmt::format("line {}: the same corner twice in a row", line));
         corners.push_back(corner);
     }
     if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();

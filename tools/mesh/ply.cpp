@@ -95,10 +95,12 @@ double read_value(TextReader& reader, PlyEncoding encoding, ScalarType type) {
 /// The polygon's values; a negative or fractional or absurd count is refused.
 std::vector<double> read_list(TextReader& reader, PlyEncoding encoding, const PlyProperty& property) {
     const double count = read_value(reader, encoding, property.count_type);
-    if (!(count >= 0 && count <= static_cast<double>(reader.bytes_left())) || count != static_cast<double>(static_cast<std::size_t>(count)))
+    if (!(count >= 0 && count <= static_cast<double>(reader.bytes_left())) ||
+        count != static_cast<double>(static_cast<std::size_t>(count)))
         reader.fail("a list of an impossible length");
     std::vector<double> values(static_cast<std::size_t>(count));
-    for (double& value : values) value = read_value(reader, encoding, property.type);
+    for (double& value : values)
+        value = read_value(reader, encoding, property.type);
     return values;
 }
 
@@ -113,7 +115,8 @@ void add_polygon(const TextReader& reader, const std::vector<double>& corners, P
     if (corners.size() < 3) reader.fail("a face with fewer than three corners");
     std::vector<std::uint32_t> indices;
     for (const double corner : corners) {
-        if (!(corner >= 0 && corner < static_cast<double>(data.vertices.size())) || corner != static_cast<double>(static_cast<std::uint32_t>(corner)))
+        if (!(corner >= 0 && corner < static_cast<double>(data.vertices.size())) ||
+            corner != static_cast<double>(static_cast<std::uint32_t>(corner)))
             reader.fail(fmt::format("a face names vertex {:g} of {} (from 0)", corner, data.vertices.size()));
         indices.push_back(static_cast<std::uint32_t>(corner));
     }
@@ -125,7 +128,8 @@ void add_polygon(const TextReader& reader, const std::vector<double>& corners, P
 void read_element(TextReader& reader, PlyEncoding encoding, const PlyElement& element, PlyData& data) {
     const bool is_vertex = element.name == "vertex";
     const bool is_face = element.name == "face";
-    if (element.name == "tristrips") reader.fail("triangle strips are not supported; save the file with faces");
+    if (element.name == "tristrips")
+        reader.fail("triangle strips are not supported; save the file with faces");
     for (std::size_t i = 0; i < element.count; ++i) {
         Point point{};
         for (const PlyProperty& property : element.properties) {
@@ -161,17 +165,20 @@ TriangleSurface read_ply(std::string_view content) {
     const PlyHeader header = read_header(reader);
     require_vertices_with_coordinates(reader, header);
     PlyData data;
-    for (const PlyElement& element : header.elements) read_element(reader, header.encoding, element, data);
+    for (const PlyElement& element : header.elements)
+        read_element(reader, header.encoding, element, data);
     const bool clean_end = header.encoding == PlyEncoding::text ? reader.at_end() : reader.bytes_left() == 0;
     if (!clean_end) reader.fail("the file goes on after the data that its header announces");
     std::vector<Point> corners;
     corners.reserve(3 * data.triangles.size());
     for (const auto& triangle : data.triangles)
-        for (const std::uint32_t index : triangle) corners.push_back(data.vertices[index]);
+        for (const std::uint32_t index : triangle)
+            corners.push_back(data.vertices[index]);
     TriangleSurface surface = join_corners(corners);
     if (data.split_polygons > 0)
         surface.notes.push_back(
-            {false, fmt::format("{} faces with more than three corners cut into triangles", data.split_polygons)});
+            {false,
+             fmt::format("{} faces with more than three corners cut into triangles", data.split_polygons)});
     return surface;
 }
 

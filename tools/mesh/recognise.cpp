@@ -26,7 +26,9 @@ bool starts_with_line(std::string_view content, std::string_view line) {
 /// 84 bytes of header that end in the number of triangles, and exactly that many triangles.
 bool is_binary_stl(std::string_view content) {
     if (content.size() < kBinaryStlHeader) return false;
-    const auto byte = [&](std::size_t i) { return std::uint64_t{static_cast<unsigned char>(content[80 + i])}; };
+    const auto byte = [&](std::size_t i) {
+        return std::uint64_t{static_cast<unsigned char>(content[80 + i])};
+    };
     const std::uint64_t triangles = byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24;
     return triangles > 0 && content.size() == kBinaryStlHeader + kBinaryStlTriangle * triangles;
 }
@@ -81,9 +83,9 @@ void require_only_sections(std::string_view content) {
 void require_sound_msh(std::string_view content) {
     if (!is_binary_msh(content)) require_only_sections(content);
     const bool version_1 = content.find("$NOD") != std::string_view::npos;
-    const std::array<const char*, 4> needed = version_1
-        ? std::array<const char*, 4>{"$NOD", "$ENDNOD", "$ELM", "$ENDELM"}
-        : std::array<const char*, 4>{"$Nodes", "$EndNodes", "$Elements", "$EndElements"};
+    const std::array<const char*, 4> needed =
+        version_1 ? std::array<const char*, 4>{"$NOD", "$ENDNOD", "$ELM", "$ENDELM"}
+                  : std::array<const char*, 4>{"$Nodes", "$EndNodes", "$Elements", "$EndElements"};
     for (const char* section : needed)
         if (content.find(section) == std::string_view::npos)
             fail_input(std::string("this MSH file has no ") + section + ": it holds no mesh, or was cut off");
@@ -97,12 +99,13 @@ void require_sound_step(std::string_view content) {
 [[noreturn]] void fail_unknown(std::string_view content) {
     constexpr const char* kKnown = "STEP, BREP, STL, PLY, MSH, Medit .mesh, VTK legacy, VegaFEM .veg";
     if (content.empty()) fail_input("the file is empty");
-    if (content.starts_with("\x89HDF\r\n"))
-        fail_input("is an HDF5 file; a mesh of Knead needs no import");
-    const bool text = std::none_of(content.begin(), content.begin() + std::min<std::size_t>(content.size(), 512),
-                                   [](char c) { return c == 0; });
-    const std::string start = text ? "a text that starts with " + in_quotes(TextReader(content).rest_of_line())
-                                   : std::string("a binary file of an unknown kind");
+    if (content.starts_with("\x89HDF\r\n")) fail_input("is an HDF5 file; a mesh of Knead needs no import");
+    const bool text =
+        std::none_of(content.begin(), content.begin() + std::min<std::size_t>(content.size(), 512),
+                     [](char c) { return c == 0; });
+    const std::string start = text
+                                  ? "a text that starts with " + in_quotes(TextReader(content).rest_of_line())
+                                  : std::string("a binary file of an unknown kind");
     fail_input("is " + start + ", none of the formats knead-mesh imports (" + kKnown +
                "). Scripts of gmsh (.geo) are never run");
 }
@@ -111,20 +114,31 @@ void require_sound_step(std::string_view content) {
 
 const char* description(FileFormat format) {
     switch (format) {
-        case FileFormat::step: return "a STEP file";
-        case FileFormat::brep: return "a BREP file";
-        case FileFormat::stl_text: return "a text STL file";
-        case FileFormat::stl_binary: return "a binary STL file";
-        case FileFormat::ply: return "a PLY file";
-        case FileFormat::msh: return "a gmsh MSH file";
-        case FileFormat::medit: return "a Medit mesh";
-        case FileFormat::vtk: return "a legacy VTK file";
-        case FileFormat::veg: return "a VegaFEM file";
+        case FileFormat::step:
+            return "a STEP file";
+        case FileFormat::brep:
+            return "a BREP file";
+        case FileFormat::stl_text:
+            return "a text STL file";
+        case FileFormat::stl_binary:
+            return "a binary STL file";
+        case FileFormat::ply:
+            return "a PLY file";
+        case FileFormat::msh:
+            return "a gmsh MSH file";
+        case FileFormat::medit:
+            return "a Medit mesh";
+        case FileFormat::vtk:
+            return "a legacy VTK file";
+        case FileFormat::veg:
+            return "a VegaFEM file";
     }
     return "a file";
 }
 
-bool needs_length_unit(FileFormat format) { return format != FileFormat::step; }
+bool needs_length_unit(FileFormat format) {
+    return format != FileFormat::step;
+}
 
 FileFormat recognise(std::string_view content) {
     if (starts_with_line(content, "$MeshFormat") || starts_with_line(content, "$NOD") ||
@@ -162,7 +176,8 @@ void require_matching_extension(FileFormat format, const std::string& extension)
         {".veg", {FileFormat::veg, FileFormat::veg}},
     };
     std::string lower = extension;
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (char& c : lower)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const auto& [promised, formats] : kPromises)
         if (lower == promised && format != formats[0] && format != formats[1])
             fail_input(std::string("holds ") + description(format) + ", but its name ends in " + extension +

@@ -15,8 +15,8 @@ enum class FileFormat { step, brep, stl_text, stl_binary, ply, msh, medit, vtk, 
 /// True for the formats whose coordinates have no unit, all but STEP.
 [[nodiscard]] bool needs_length_unit(FileFormat format);
 
-/// Tells by its content which format a file has, whatever its name. Only content recognised here is ever shown
-/// to gmsh: gmsh runs whatever it does not recognise as a script, shell commands included.
+/// Tells by its content which format a file has, whatever its name. Only content recognised here is ever
+/// shown to gmsh: gmsh runs whatever it does not recognise as a script, shell commands included.
 ///
 /// Looks at the opening of the file, and for the two that gmsh reads by itself (MSH, STEP) at the whole
 /// outline: MSH must be a sequence of $Section ... $EndSection with nothing between them.

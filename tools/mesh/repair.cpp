@@ -73,7 +73,8 @@ class Repair {
     void keep_nodes(const std::vector<std::int64_t>& new_position);
 
     [[nodiscard]] std::string tetrahedra_that(const std::vector<std::size_t>& found, const char* what) const {
-        return count_and_numbers(found, raw_.tetrahedra.size(), what, raw_.tetrahedron_numbers, raw_.numbering);
+        return count_and_numbers(found, raw_.tetrahedra.size(), what, raw_.tetrahedron_numbers,
+                                 raw_.numbering);
     }
     [[nodiscard]] std::string nodes_that(const std::vector<std::size_t>& found, const char* what) const {
         return count_and_numbers(found, raw_.nodes.size(), what, raw_.node_numbers, raw_.numbering);
@@ -87,12 +88,15 @@ class Repair {
 
 void Repair::tell_other_cells() {
     std::string types;
-    for (const auto& [type, count] : raw_.other_cells) types += fmt::format("{}{} {}", types.empty() ? "" : ", ", count, type);
+    for (const auto& [type, count] : raw_.other_cells)
+        types += fmt::format("{}{} {}", types.empty() ? "" : ", ", count, type);
     if (raw_.tetrahedra.empty())
-        fail_input(types.empty() ? "the file has no tetrahedra" : "the file has no linear tetrahedra, only " + types);
+        fail_input(types.empty() ? "the file has no tetrahedra"
+                                 : "the file has no linear tetrahedra, only " + types);
     if (!types.empty()) tell("cells that are not linear tetrahedra left out: " + types);
     constexpr std::size_t kMaxIndex = std::numeric_limits<std::uint32_t>::max();
-    if (raw_.nodes.size() > kMaxIndex || raw_.tetrahedra.size() > kMaxIndex) fail_input("the mesh has more nodes or tetrahedra than a 32-bit index can name");
+    if (raw_.nodes.size() > kMaxIndex || raw_.tetrahedra.size() > kMaxIndex)
+        fail_input("the mesh has more nodes or tetrahedra than a 32-bit index can name");
 }
 
 void Repair::require_indices() {
@@ -107,7 +111,8 @@ void Repair::require_indices() {
 /// Moves node i to new_position[i] (drops it where that is -1), in order.
 void Repair::keep_nodes(const std::vector<std::int64_t>& new_position) {
     for (auto& nodes : raw_.tetrahedra)
-        for (std::int64_t& node : nodes) node = new_position[static_cast<std::size_t>(node)];
+        for (std::int64_t& node : nodes)
+            node = new_position[static_cast<std::size_t>(node)];
     std::size_t kept = 0;
     for (std::size_t i = 0; i < raw_.nodes.size(); ++i) {
         if (new_position[i] != static_cast<std::int64_t>(kept)) continue;
@@ -122,7 +127,8 @@ void Repair::keep_nodes(const std::vector<std::int64_t>& new_position) {
 void Repair::drop_unused_nodes() {
     std::vector<char> used(raw_.nodes.size(), 0);
     for (const auto& nodes : raw_.tetrahedra)
-        for (const std::int64_t node : nodes) used[static_cast<std::size_t>(node)] = 1;
+        for (const std::int64_t node : nodes)
+            used[static_cast<std::size_t>(node)] = 1;
     const auto unused = select(used.size(), [&](std::size_t i) { return used[i] == 0; });
     if (unused.empty()) return;
     tell(nodes_that(unused, "nodes dropped: no tetrahedron uses them"));
@@ -136,7 +142,8 @@ void Repair::drop_unused_nodes() {
 void Repair::require_finite() {
     const auto bad = select(raw_.nodes.size(), [&](std::size_t i) {
         const Point& node = raw_.nodes[i];
-        return !std::isfinite(node[0] * options_.metres_per_unit) || !std::isfinite(node[1] * options_.metres_per_unit) ||
+        return !std::isfinite(node[0] * options_.metres_per_unit) ||
+               !std::isfinite(node[1] * options_.metres_per_unit) ||
                !std::isfinite(node[2] * options_.metres_per_unit);
     });
     if (!bad.empty()) fail_input(nodes_that(bad, "nodes have a coordinate that is not finite"));
@@ -154,10 +161,12 @@ void Repair::join_or_refuse_coincident_nodes() {
         first_there[order[i]] = i > 0 && raw_.nodes[order[i]] == raw_.nodes[order[i - 1]]
                                     ? first_there[order[i - 1]]
                                     : static_cast<std::int64_t>(order[i]);
-    const auto doubled = select(order.size(), [&](std::size_t i) { return first_there[i] != static_cast<std::int64_t>(i); });
+    const auto doubled =
+        select(order.size(), [&](std::size_t i) { return first_there[i] != static_cast<std::int64_t>(i); });
     if (doubled.empty()) return;
     if (!options_.merge_duplicate_nodes)
-        fail_input(nodes_that(doubled, "nodes lie exactly where an earlier node lies") + "; --merge-duplicate-nodes joins them");
+        fail_input(nodes_that(doubled, "nodes lie exactly where an earlier node lies") +
+                   "; --merge-duplicate-nodes joins them");
     tell(nodes_that(doubled, "nodes joined with an earlier node at the same place"));
     std::vector<std::int64_t> new_position(order.size());
     std::int64_t kept = 0;
@@ -183,9 +192,11 @@ void Repair::scale_nodes() {
         result_.mesh.nodes_m.push_back({node[0] * scale, node[1] * scale, node[2] * scale});
     }
     for (const auto& nodes : raw_.tetrahedra)
-        result_.mesh.tetrahedra.push_back({static_cast<std::uint32_t>(nodes[0]), static_cast<std::uint32_t>(nodes[1]),
-                                           static_cast<std::uint32_t>(nodes[2]), static_cast<std::uint32_t>(nodes[3])});
-    for (std::size_t t = 0; t < raw_.tetrahedra.size(); ++t) volumes_m3_.push_back(signed_volume_m3(result_.mesh, t));
+        result_.mesh.tetrahedra.push_back(
+            {static_cast<std::uint32_t>(nodes[0]), static_cast<std::uint32_t>(nodes[1]),
+             static_cast<std::uint32_t>(nodes[2]), static_cast<std::uint32_t>(nodes[3])});
+    for (std::size_t t = 0; t < raw_.tetrahedra.size(); ++t)
+        volumes_m3_.push_back(signed_volume_m3(result_.mesh, t));
 }
 
 double longest_edge(const TetMesh& mesh, std::size_t t) {
@@ -194,7 +205,8 @@ double longest_edge(const TetMesh& mesh, std::size_t t) {
         for (int j = i + 1; j < 4; ++j) {
             double sum = 0;
             for (int axis = 0; axis < 3; ++axis) {
-                const double side = mesh.nodes_m[mesh.tetrahedra[t][i]][axis] - mesh.nodes_m[mesh.tetrahedra[t][j]][axis];
+                const double side =
+                    mesh.nodes_m[mesh.tetrahedra[t][i]][axis] - mesh.nodes_m[mesh.tetrahedra[t][j]][axis];
                 sum += side * side;
             }
             squared = std::max(squared, sum);
@@ -216,12 +228,15 @@ void Repair::repair_orientation() {
     const auto inverted = select(volumes_m3_.size(), [&](std::size_t t) { return volumes_m3_[t] < 0; });
     if (inverted.empty()) return;
     if (inverted.size() == volumes_m3_.size())
-        tell(fmt::format("orientation repaired: all {} tetrahedra were inverted, the file's convention", inverted.size()));
+        tell(fmt::format("orientation repaired: all {} tetrahedra were inverted, the file's convention",
+                         inverted.size()));
     else if (options_.repair_orientation)
         tell("orientation repaired: " + tetrahedra_that(inverted, "tetrahedra were inverted"));
     else
-        fail_input(tetrahedra_that(inverted, "tetrahedra are inverted") + "; --repair-orientation turns them round");
-    for (const std::size_t t : inverted) std::swap(result_.mesh.tetrahedra[t][2], result_.mesh.tetrahedra[t][3]);
+        fail_input(tetrahedra_that(inverted, "tetrahedra are inverted") +
+                   "; --repair-orientation turns them round");
+    for (const std::size_t t : inverted)
+        std::swap(result_.mesh.tetrahedra[t][2], result_.mesh.tetrahedra[t][3]);
 }
 
 void Repair::require_different_tetrahedra() {
@@ -234,7 +249,9 @@ void Repair::require_different_tetrahedra() {
         keys.push_back({result_.mesh.tetrahedra[t], t});
         std::sort(keys.back().nodes.begin(), keys.back().nodes.end());
     }
-    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.nodes != b.nodes ? a.nodes < b.nodes : a.position < b.position; });
+    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+        return a.nodes != b.nodes ? a.nodes < b.nodes : a.position < b.position;
+    });
     std::vector<std::size_t> repeated;
     for (std::size_t i = 1; i < keys.size(); ++i)
         if (keys[i].nodes == keys[i - 1].nodes) repeated.push_back(keys[i].position);
@@ -244,22 +261,33 @@ void Repair::require_different_tetrahedra() {
 
 }  // namespace
 
-RepairedMesh to_tet_mesh(RawMesh raw, const RepairOptions& options) { return Repair(std::move(raw), options).run(); }
+RepairedMesh to_tet_mesh(RawMesh raw, const RepairOptions& options) {
+    return Repair(std::move(raw), options).run();
+}
 
 Notes remarks(const TetMesh& mesh, const MeshQuality& quality) {
     Notes notes;
     double extent = 0;
-    for (int axis = 0; axis < 3; ++axis) extent = std::max(extent, quality.high_m[axis] - quality.low_m[axis]);
+    for (int axis = 0; axis < 3; ++axis)
+        extent = std::max(extent, quality.high_m[axis] - quality.low_m[axis]);
     if (extent > kLargestLikelyExtent_m)
-        notes.push_back({true, fmt::format("the mesh is {:.3g} m across: this looks like millimetres called metres; check the length unit", extent)});
+        notes.push_back({true, fmt::format("the mesh is {:.3g} m across: this looks like millimetres called "
+                                           "metres; check the length unit",
+                                           extent)});
     if (extent < kSmallestLikelyExtent_m)
-        notes.push_back({true, fmt::format("the mesh is {:.3g} m across: this looks like a unit converted twice; check the length unit", extent)});
-    if (quality.bodies > 1) notes.push_back({false, fmt::format("the mesh has {} bodies that share no node", quality.bodies)});
+        notes.push_back(
+            {true,
+             fmt::format(
+                 "the mesh is {:.3g} m across: this looks like a unit converted twice; check the length unit",
+                 extent)});
+    if (quality.bodies > 1)
+        notes.push_back({false, fmt::format("the mesh has {} bodies that share no node", quality.bodies)});
     if (!quality.slivers.empty()) {
         std::vector<std::int64_t> numbers(mesh.tetrahedra.size());
         std::iota(numbers.begin(), numbers.end(), 0);
         const std::vector<std::size_t> slivers(quality.slivers.begin(), quality.slivers.end());
-        notes.push_back({true, count_and_numbers(slivers, numbers.size(), "tetrahedra are slivers", numbers, "positions in the output, from 0") +
+        notes.push_back({true, count_and_numbers(slivers, numbers.size(), "tetrahedra are slivers", numbers,
+                                                 "positions in the output, from 0") +
                                    fmt::format(": radius ratio below {:g}", kSliverRadiusRatio)});
     }
     return notes;

@@ -7,8 +7,9 @@
 
 namespace knead::tools {
 
-/// A tetrahedron counts as flat when its volume is at most this share of the cube of its longest edge. Far above
-/// the rounding of coordinates stored as doubles, far below any tetrahedron that can be simulated; free of scale.
+/// A tetrahedron counts as flat when its volume is at most this share of the cube of its longest edge. Far
+/// above the rounding of coordinates stored as doubles, far below any tetrahedron that can be simulated; free
+/// of scale.
 inline constexpr double kFlatVolumeRatio = 1e-9;
 
 struct RepairOptions {
@@ -24,10 +25,10 @@ struct RepairedMesh {
 
 /// Checks a mesh from a file and makes it a valid one, in metres.
 ///
-/// Repaired and told: all tetrahedra inverted (the file's convention), unused nodes (dropped), cells that are no
-/// tetrahedra (left out); with the options: some tetrahedra inverted, nodes at the same place.
-/// Refused (ToolError bad_input, with count and first numbers as the file has them): no tetrahedron, coordinates
-/// that are not finite, node numbers out of range, a node twice in a tetrahedron, flat tetrahedra, the same
+/// Repaired and told: all tetrahedra inverted (the file's convention), unused nodes (dropped), cells that are
+/// no tetrahedra (left out); with the options: some tetrahedra inverted, nodes at the same place. Refused
+/// (ToolError bad_input, with count and first numbers as the file has them): no tetrahedron, coordinates that
+/// are not finite, node numbers out of range, a node twice in a tetrahedron, flat tetrahedra, the same
 /// tetrahedron twice, and what the options would repair.
 /// The order of nodes and tetrahedra is kept.
 [[nodiscard]] RepairedMesh to_tet_mesh(RawMesh raw, const RepairOptions& options);

@@ -14,9 +14,9 @@ struct Trial {
     double excess;
 };
 
-/// The next length to try. Between a length that gave too many and one that gave too few, where the straight line
-/// between their logarithms crosses zero, kept away from both ends so that jumps cannot stall the search;
-/// otherwise from the third-power law, a few times the size at most, so that no trial becomes huge.
+/// The next length to try. Between a length that gave too many and one that gave too few, where the straight
+/// line between their logarithms crosses zero, kept away from both ends so that jumps cannot stall the
+/// search; otherwise from the third-power law, a few times the size at most, so that no trial becomes huge.
 double next_length(const std::optional<Trial>& too_many, const std::optional<Trial>& too_few) {
     if (too_many && too_few) {
         const double share = too_many->excess / (too_many->excess - too_few->excess);
@@ -41,7 +41,8 @@ SizeSearchResult search_edge_length(std::size_t wanted, double first_guess,
     while (best.meshings < kMaxMeshings) {
         const std::size_t count = count_at(length);
         ++best.meshings;
-        const double excess = std::log(static_cast<double>(std::max<std::size_t>(count, 1)) / static_cast<double>(wanted));
+        const double excess =
+            std::log(static_cast<double>(std::max<std::size_t>(count, 1)) / static_cast<double>(wanted));
         if (std::abs(excess) < best_error) {
             best_error = std::abs(excess);
             best.edge_length = length;

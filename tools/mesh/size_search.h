@@ -11,7 +11,7 @@ inline constexpr double kCountTolerance = 0.03;
 inline constexpr int kMaxMeshings = 16;
 
 struct SizeSearchResult {
-    double edge_length = 0;   ///< the one whose count is nearest to the wanted one
+    double edge_length = 0;  ///< the one whose count is nearest to the wanted one
     std::size_t count = 0;
     int meshings = 0;
     bool within_tolerance = false;

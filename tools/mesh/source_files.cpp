@@ -27,11 +27,14 @@ std::string SourceFiles::read(const std::filesystem::path& file, const std::stri
 IncludeReader SourceFiles::include_reader(const std::filesystem::path& file) {
     return [this, file](const std::string& name) {
         std::error_code error;
-        const auto folder = std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path(), error);
+        const auto folder =
+            std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path(), error);
         const auto target = std::filesystem::canonical(folder / name, error);
         if (error) fail_input("*INCLUDE " + in_quotes(name) + ": no such file");
-        const auto [in_folder, rest] = std::mismatch(folder.begin(), folder.end(), target.begin(), target.end());
-        if (in_folder != folder.end()) fail_input("*INCLUDE " + in_quotes(name) + " lies outside of the folder of the file: refused");
+        const auto [in_folder, rest] =
+            std::mismatch(folder.begin(), folder.end(), target.begin(), target.end());
+        if (in_folder != folder.end())
+            fail_input("*INCLUDE " + in_quotes(name) + " lies outside of the folder of the file: refused");
         return read(target, "include");
     };
 }

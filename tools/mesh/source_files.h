@@ -15,7 +15,8 @@ namespace knead::tools {
 class SourceFiles {
   public:
     /// @param on_read told of every file before it is read
-    explicit SourceFiles(std::function<void(const std::filesystem::path&)> on_read) : on_read_(std::move(on_read)) {}
+    explicit SourceFiles(std::function<void(const std::filesystem::path&)> on_read)
+        : on_read_(std::move(on_read)) {}
 
     /// The whole file. ToolError bad_input when it cannot be read.
     std::string read(const std::filesystem::path& file, const std::string& role);

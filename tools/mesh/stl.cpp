@@ -13,7 +13,8 @@ namespace {
 
 void expect(TextReader& reader, const char* wanted) {
     const std::string_view found = reader.word(wanted);
-    if (found != wanted) reader.fail(fmt::format("\"{}\" should stand here, not {}", wanted, in_quotes(found)));
+    if (found != wanted)
+        reader.fail(fmt::format("\"{}\" should stand here, not {}", wanted, in_quotes(found)));
 }
 
 Point read_point(TextReader& reader) {
@@ -25,7 +26,8 @@ Point read_point(TextReader& reader) {
 /// After "facet": normal (unused, often wrong in practice), three corners.
 void read_facet(TextReader& reader, std::vector<Point>& corners) {
     expect(reader, "normal");
-    for (int i = 0; i < 3; ++i) reader.word("a normal");
+    for (int i = 0; i < 3; ++i)
+        reader.word("a normal");
     expect(reader, "outer");
     expect(reader, "loop");
     for (int i = 0; i < 3; ++i) {

@@ -55,7 +55,9 @@ std::vector<std::uint32_t> shells_of(const TriangleSurface& surface, const std::
 /// Whether the ray from `origin` along a direction that no honest model is aligned with meets the triangle.
 bool ray_meets(const Point& origin, const Point& a, const Point& b, const Point& c) {
     static const Point kDirection{0.538516480713, 0.291547594742, 0.790569415042};
-    const auto minus = [](const Point& p, const Point& q) { return Point{p[0] - q[0], p[1] - q[1], p[2] - q[2]}; };
+    const auto minus = [](const Point& p, const Point& q) {
+        return Point{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+    };
     const auto cross = [](const Point& p, const Point& q) {
         return Point{p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
     };
@@ -89,12 +91,13 @@ std::vector<std::vector<bool>> nesting(const ClosedSurface& closed, std::size_t 
     return inside;
 }
 
-/// A shell inside an even number of others is the outside of a body; inside an odd number, it is a cavity of the
-/// innermost shell around it.
+/// A shell inside an even number of others is the outside of a body; inside an odd number, it is a cavity of
+/// the innermost shell around it.
 std::vector<std::vector<std::uint32_t>> bodies_of(const std::vector<std::vector<bool>>& inside) {
     const std::size_t shells = inside.size();
     std::vector<std::size_t> depth(shells);
-    for (std::size_t a = 0; a < shells; ++a) depth[a] = std::count(inside[a].begin(), inside[a].end(), true);
+    for (std::size_t a = 0; a < shells; ++a)
+        depth[a] = std::count(inside[a].begin(), inside[a].end(), true);
     std::vector<std::vector<std::uint32_t>> bodies;
     for (std::uint32_t outer = 0; outer < shells; ++outer) {
         if (depth[outer] % 2 != 0) continue;
@@ -117,7 +120,8 @@ TriangleSurface join_corners(const std::vector<Point>& corners) {
             Point point = corners[c + i];
             for (double& x : point) {
                 if (!std::isfinite(x))
-                    fail_input(fmt::format("triangle {} (from 0) has a coordinate that is not finite", c / 3));
+                    fail_input(
+                        fmt::format("triangle {} (from 0) has a coordinate that is not finite", c / 3));
                 x += 0.0;  // -0 and 0 are the same place
             }
             const auto [found, is_new] =
@@ -144,7 +148,8 @@ ClosedSurface require_closed(TriangleSurface surface) {
     Edge first_crowded{};
     for (std::size_t i = 0; i < uses.size();) {
         std::size_t next = i;
-        while (next < uses.size() && uses[next].edge == uses[i].edge) ++next;
+        while (next < uses.size() && uses[next].edge == uses[i].edge)
+            ++next;
         if (next - i == 1 && open++ == 0) first_open = uses[i].edge;
         if (next - i > 2 && crowded++ == 0) first_crowded = uses[i].edge;
         i = next;
@@ -153,9 +158,10 @@ ClosedSurface require_closed(TriangleSurface surface) {
         fail_input(fmt::format("the surface has a hole: {} open edges, the first at {}; close it first", open,
                                place(surface, first_open)));
     if (crowded > 0)
-        fail_input(fmt::format("the surface is not a boundary: {} edges belong to more than two triangles, the "
-                               "first at {}",
-                               crowded, place(surface, first_crowded)));
+        fail_input(
+            fmt::format("the surface is not a boundary: {} edges belong to more than two triangles, the "
+                        "first at {}",
+                        crowded, place(surface, first_crowded)));
     ClosedSurface closed;
     closed.shell_of_triangle = shells_of(surface, uses);
     closed.surface = std::move(surface);

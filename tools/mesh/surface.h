@@ -18,8 +18,9 @@ struct TriangleSurface {
     Notes notes;  ///< what the reader has to say
 };
 
-/// Readers. They check the whole text or buffer, refuse what does not belong there and every coordinate that is
-/// not finite (ToolError bad_input), and leave out triangles with a repeated corner (a note says how many).
+/// Readers. They check the whole text or buffer, refuse what does not belong there and every coordinate that
+/// is not finite (ToolError bad_input), and leave out triangles with a repeated corner (a note says how
+/// many).
 [[nodiscard]] TriangleSurface read_stl_text(std::string_view content);
 [[nodiscard]] TriangleSurface read_stl_binary(std::string_view content);
 [[nodiscard]] TriangleSurface read_ply(std::string_view content);

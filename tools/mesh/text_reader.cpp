@@ -9,7 +9,9 @@
 namespace knead::tools {
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v'; }
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
+}
 
 template <class T>
 bool convert(std::string_view word, T& value) {
@@ -20,13 +22,18 @@ bool convert(std::string_view word, T& value) {
 
 }  // namespace
 
-bool to_number(std::string_view word, double& value) { return convert(word, value); }
-bool to_integer(std::string_view word, std::int64_t& value) { return convert(word, value); }
+bool to_number(std::string_view word, double& value) {
+    return convert(word, value);
+}
+bool to_integer(std::string_view word, std::int64_t& value) {
+    return convert(word, value);
+}
 
 std::string in_quotes(std::string_view word) {
     constexpr std::size_t kMaxShown = 40;
     std::string shown = "\"";
-    for (const char c : word.substr(0, kMaxShown)) shown += (c >= ' ' && c <= '~') ? c : '?';
+    for (const char c : word.substr(0, kMaxShown))
+        shown += (c >= ' ' && c <= '~') ? c : '?';
     return shown + (word.size() > kMaxShown ? "...\"" : "\"");
 }
 

@@ -31,7 +31,8 @@ class TextReader {
     [[nodiscard]] bool at_end() const { return peek().empty(); }
     [[nodiscard]] std::size_t line() const { return line_; }
     [[nodiscard]] std::size_t bytes_left() const { return text_.size() - position_; }
-    /// Moves over `bytes` raw bytes and returns them: binary blocks inside a text. Throws when too few are left.
+    /// Moves over `bytes` raw bytes and returns them: binary blocks inside a text. Throws when too few are
+    /// left.
     std::string_view raw(std::size_t bytes, const char* what);
 
     [[noreturn]] void fail(const std::string& message) const;

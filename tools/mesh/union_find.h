@@ -14,7 +14,8 @@ class UnionFind {
     explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
 
     std::uint32_t root(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        while (parent_[i] != i)
+            i = parent_[i] = parent_[parent_[i]];
         return i;
     }
 
@@ -30,7 +31,8 @@ class UnionFind {
     std::vector<std::uint32_t> labels() {
         std::vector<std::uint32_t> label(parent_.size());
         std::uint32_t count = 0;
-        for (std::uint32_t i = 0; i < parent_.size(); ++i) label[i] = root(i) == i ? count++ : label[root(i)];
+        for (std::uint32_t i = 0; i < parent_.size(); ++i)
+            label[i] = root(i) == i ? count++ : label[root(i)];
         return label;
     }
 

@@ -36,7 +36,8 @@ struct VegSet {
 };
 
 std::string upper(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    for (char& c : text)
+        c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     return text;
 }
 
@@ -60,7 +61,8 @@ void collect_lines(std::string_view content, const std::string& name, const Incl
     TextReader reader(content);
     while (reader.bytes_left() > 0) {
         const std::size_t number = reader.line();
-        VegLine line{split(reader.rest_of_line()), fmt::format("{}line {}", name.empty() ? "" : name + ": ", number)};
+        VegLine line{split(reader.rest_of_line()),
+                     fmt::format("{}line {}", name.empty() ? "" : name + ": ", number)};
         if (line.words.empty()) continue;
         if (upper(line.words[0]) != "*INCLUDE") {
             lines.push_back(std::move(line));
@@ -77,7 +79,8 @@ class VegReader {
     explicit VegReader(std::vector<VegLine> lines) : lines_(std::move(lines)) {}
 
     RawMesh read() {
-        while (at_ < lines_.size()) read_section();
+        while (at_ < lines_.size())
+            read_section();
         if (mesh_.nodes.empty()) fail_input("has no *VERTICES");
         if (!has_elements_) fail_input("has no *ELEMENTS");
         resolve_tetrahedra();
@@ -95,9 +98,12 @@ class VegReader {
     void resolve_tetrahedra();
     void assign_regions();
     void make_arrays(const std::vector<std::optional<std::size_t>>& material_of);
-    [[nodiscard]] std::vector<std::int64_t> elements_of(const std::string& set, const std::string& place) const;
+    [[nodiscard]] std::vector<std::int64_t> elements_of(const std::string& set,
+                                                        const std::string& place) const;
 
-    [[noreturn]] static void fail(const VegLine& line, const std::string& text) { fail_input(line.place + ": " + text); }
+    [[noreturn]] static void fail(const VegLine& line, const std::string& text) {
+        fail_input(line.place + ": " + text);
+    }
     const VegLine& next(const char* what) {
         if (at_ >= lines_.size()) fail_input(std::string("the file ends where ") + what + " should follow");
         return lines_[at_++];
@@ -105,12 +111,14 @@ class VegReader {
     [[nodiscard]] bool in_section() const { return at_ < lines_.size() && lines_[at_].words[0][0] != '*'; }
     static std::int64_t integer(const VegLine& line, std::size_t word) {
         std::int64_t value = 0;
-        if (word >= line.words.size() || !to_integer(line.words[word], value)) fail(line, fmt::format("word {} should be an integer", word + 1));
+        if (word >= line.words.size() || !to_integer(line.words[word], value))
+            fail(line, fmt::format("word {} should be an integer", word + 1));
         return value;
     }
     static double number(const VegLine& line, std::size_t word) {
         double value = 0;
-        if (word >= line.words.size() || !to_number(line.words[word], value)) fail(line, fmt::format("word {} should be a number", word + 1));
+        if (word >= line.words.size() || !to_number(line.words[word], value))
+            fail(line, fmt::format("word {} should be a number", word + 1));
         return value;
     }
 
@@ -147,14 +155,17 @@ void VegReader::read_vertices() {
     const std::int64_t count = integer(header, 0);
     if (header.words.size() > 1 && integer(header, 1) != 3) fail(header, "the mesh is not three-dimensional");
     if (!mesh_.nodes.empty()) fail(header, "a second *VERTICES");
-    if (count < 1 || static_cast<std::uint64_t>(count) > lines_.size() - at_) fail(header, "the file has fewer lines than vertices");
+    if (count < 1 || static_cast<std::uint64_t>(count) > lines_.size() - at_)
+        fail(header, "the file has fewer lines than vertices");
     for (std::int64_t i = 0; i < count; ++i) {
         const VegLine& line = next("a vertex");
         if (line.words.size() != 4) fail(line, "a vertex is a number and three coordinates");
         const std::int64_t id = integer(line, 0);
         if (i == 0) first_vertex_ = id;
-        if (first_vertex_ != 0 && first_vertex_ != 1) fail(line, "vertices must be numbered from 0 or from 1");
-        if (id != first_vertex_ + i) fail(line, fmt::format("vertex {} should stand here", first_vertex_ + i));
+        if (first_vertex_ != 0 && first_vertex_ != 1)
+            fail(line, "vertices must be numbered from 0 or from 1");
+        if (id != first_vertex_ + i)
+            fail(line, fmt::format("vertex {} should stand here", first_vertex_ + i));
         mesh_.nodes.push_back({number(line, 1), number(line, 2), number(line, 3)});
         mesh_.node_numbers.push_back(id);
     }
@@ -168,16 +179,21 @@ void VegReader::read_elements() {
     const std::int64_t count = integer(header, 0);
     if (has_elements_) fail(header, "a second *ELEMENTS");
     has_elements_ = true;
-    if (count < 1 || static_cast<std::uint64_t>(count) > lines_.size() - at_) fail(header, "the file has fewer lines than elements");
-    if (!tetrahedra) mesh_.other_cells.emplace_back(name == "CUBIC" ? "cubes" : "elements of type " + in_quotes(type.words[0]), count);
+    if (count < 1 || static_cast<std::uint64_t>(count) > lines_.size() - at_)
+        fail(header, "the file has fewer lines than elements");
+    if (!tetrahedra)
+        mesh_.other_cells.emplace_back(
+            name == "CUBIC" ? "cubes" : "elements of type " + in_quotes(type.words[0]), count);
     for (std::int64_t i = 0; i < count; ++i) {
         const VegLine& line = next("an element");
         if (!tetrahedra) continue;
         if (line.words.size() != 5) fail(line, "a tetrahedron is a number and four vertices");
         const std::int64_t id = integer(line, 0);
         if (i == 0) first_element_ = id;
-        if (first_element_ != 0 && first_element_ != 1) fail(line, "elements must be numbered from 0 or from 1");
-        if (id != first_element_ + i) fail(line, fmt::format("element {} should stand here", first_element_ + i));
+        if (first_element_ != 0 && first_element_ != 1)
+            fail(line, "elements must be numbered from 0 or from 1");
+        if (id != first_element_ + i)
+            fail(line, fmt::format("element {} should stand here", first_element_ + i));
         mesh_.tetrahedra.push_back({integer(line, 1), integer(line, 2), integer(line, 3), integer(line, 4)});
         mesh_.tetrahedron_numbers.push_back(id);
     }
@@ -187,7 +203,8 @@ void VegReader::read_set(const std::string& name) {
     VegSet set{name, {}};
     while (in_section()) {
         const VegLine& line = next("a set");
-        for (std::size_t word = 0; word < line.words.size(); ++word) set.elements.push_back(integer(line, word));
+        for (std::size_t word = 0; word < line.words.size(); ++word)
+            set.elements.push_back(integer(line, word));
     }
     sets_.push_back(std::move(set));
 }
@@ -197,12 +214,15 @@ void VegReader::read_material(const std::string& name) {
     VegMaterial material{name};
     material.is_enu = upper(line.words[0]) == "ENU";
     if (material.is_enu) {
-        if (line.words.size() != 4) fail(line, "an ENU material is a density, a Young's modulus and a Poisson's ratio");
+        if (line.words.size() != 4)
+            fail(line, "an ENU material is a density, a Young's modulus and a Poisson's ratio");
         material.density = number(line, 1);
         material.youngs_modulus = number(line, 2);
         material.poissons_ratio = number(line, 3);
     } else {
-        mesh_.notes.push_back({true, fmt::format("material {} is of type {}, not ENU: its values are left out", in_quotes(name), in_quotes(line.words[0]))});
+        mesh_.notes.push_back(
+            {true, fmt::format("material {} is of type {}, not ENU: its values are left out", in_quotes(name),
+                               in_quotes(line.words[0]))});
     }
     materials_.push_back(material);
 }
@@ -217,21 +237,25 @@ void VegReader::read_region() {
 void VegReader::resolve_tetrahedra() {
     mesh_.numbering = fmt::format("numbered from {}", first_element_);
     for (auto& nodes : mesh_.tetrahedra)
-        for (std::int64_t& node : nodes) node -= first_vertex_;
+        for (std::int64_t& node : nodes)
+            node -= first_vertex_;
 }
 
 std::vector<std::int64_t> VegReader::elements_of(const std::string& set, const std::string& place) const {
     const auto count = static_cast<std::int64_t>(mesh_.tetrahedra.size());
     std::vector<std::int64_t> elements;
     if (set == "allElements") {
-        for (std::int64_t i = 0; i < count; ++i) elements.push_back(i);
+        for (std::int64_t i = 0; i < count; ++i)
+            elements.push_back(i);
         return elements;
     }
-    const auto found = std::find_if(sets_.begin(), sets_.end(), [&](const VegSet& s) { return s.name == set; });
+    const auto found =
+        std::find_if(sets_.begin(), sets_.end(), [&](const VegSet& s) { return s.name == set; });
     if (found == sets_.end()) fail_input(place + ": there is no set " + in_quotes(set));
     for (const std::int64_t id : found->elements) {
         if (id < first_element_ || id - first_element_ >= count)
-            fail_input(fmt::format("set {} names element {}; there are {}, numbered from {}", in_quotes(set), id, count, first_element_));
+            fail_input(fmt::format("set {} names element {}; there are {}, numbered from {}", in_quotes(set),
+                                   id, count, first_element_));
         elements.push_back(id - first_element_);
     }
     return elements;
@@ -247,20 +271,24 @@ void VegReader::assign_regions() {
     std::vector<std::optional<std::size_t>> material_of(mesh_.tetrahedra.size());
     Regions& regions = mesh_.regions;
     for (const RegionLine& region : regions_) {
-        const auto material = std::find_if(materials_.begin(), materials_.end(), [&](const VegMaterial& m) { return m.name == region.material; });
-        if (material == materials_.end()) fail_input(region.place + ": there is no material " + in_quotes(region.material));
+        const auto material = std::find_if(materials_.begin(), materials_.end(),
+                                           [&](const VegMaterial& m) { return m.name == region.material; });
+        if (material == materials_.end())
+            fail_input(region.place + ": there is no material " + in_quotes(region.material));
         if (std::find(regions.names.begin(), regions.names.end(), region.set) != regions.names.end())
             fail_input(region.place + ": a second region of set " + in_quotes(region.set));
         for (const std::int64_t element : elements_of(region.set, region.place)) {
             region_of[static_cast<std::size_t>(element)] = static_cast<std::uint32_t>(regions.names.size());
-            material_of[static_cast<std::size_t>(element)] = static_cast<std::size_t>(material - materials_.begin());
+            material_of[static_cast<std::size_t>(element)] =
+                static_cast<std::size_t>(material - materials_.begin());
         }
         regions.names.push_back(region.set);
     }
     const auto without = std::count(region_of.begin(), region_of.end(), kNone);
     if (without > 0) {
         const auto first = std::find(region_of.begin(), region_of.end(), kNone) - region_of.begin();
-        fail_input(fmt::format("{} of {} elements are in no *REGION, the first is element {}", without, region_of.size(), first + first_element_));
+        fail_input(fmt::format("{} of {} elements are in no *REGION, the first is element {}", without,
+                               region_of.size(), first + first_element_));
     }
     regions.region_of_tetrahedron = std::move(region_of);
     make_arrays(material_of);

@@ -17,11 +17,23 @@ namespace {
 constexpr int kVtkTetra = 10;
 
 std::string cell_type_name(int type) {
-    static const std::map<int, const char*> kNames{
-        {1, "vertices"},   {2, "polyvertices"}, {3, "lines"},       {4, "polylines"},  {5, "triangles"},
-        {6, "strips"},     {7, "polygons"},     {8, "pixels"},      {9, "quadrangles"}, {11, "voxels"},
-        {12, "hexahedra"}, {13, "prisms"},      {14, "pyramids"},   {21, "quadratic edges"},
-        {22, "quadratic triangles"},            {24, "quadratic tetrahedra"}, {25, "quadratic hexahedra"}};
+    static const std::map<int, const char*> kNames{{1, "vertices"},
+                                                   {2, "polyvertices"},
+                                                   {3, "lines"},
+                                                   {4, "polylines"},
+                                                   {5, "triangles"},
+                                                   {6, "strips"},
+                                                   {7, "polygons"},
+                                                   {8, "pixels"},
+                                                   {9, "quadrangles"},
+                                                   {11, "voxels"},
+                                                   {12, "hexahedra"},
+                                                   {13, "prisms"},
+                                                   {14, "pyramids"},
+                                                   {21, "quadratic edges"},
+                                                   {22, "quadratic triangles"},
+                                                   {24, "quadratic tetrahedra"},
+                                                   {25, "quadratic hexahedra"}};
     const auto found = kNames.find(type);
     return found != kNames.end() ? found->second : fmt::format("cells of VTK type {}", type);
 }
@@ -62,15 +74,16 @@ class VtkReader {
     std::vector<double> types_;
     Attributes attributes_ = Attributes::none;
     std::size_t attribute_count_ = 0;
-    std::vector<CellArray> arrays_;          ///< of all cells
-    std::vector<std::string> left_out_;      ///< names of arrays not kept
+    std::vector<CellArray> arrays_;      ///< of all cells
+    std::vector<std::string> left_out_;  ///< names of arrays not kept
 };
 
 void VtkReader::read_header() {
     reader_.rest_of_line();  // "# vtk DataFile Version x.y", recognised already
     reader_.rest_of_line();  // title
     const std::string_view encoding = reader_.word("ASCII or BINARY");
-    if (encoding != "ASCII" && encoding != "BINARY") reader_.fail("ASCII or BINARY should stand here, not " + in_quotes(encoding));
+    if (encoding != "ASCII" && encoding != "BINARY")
+        reader_.fail("ASCII or BINARY should stand here, not " + in_quotes(encoding));
     binary_ = encoding == "BINARY";
     if (reader_.word("DATASET") != "DATASET") reader_.fail("DATASET should stand here");
     const std::string_view dataset = reader_.word("the kind of data set");
@@ -104,7 +117,8 @@ std::vector<double> VtkReader::read_values(std::size_t count, ScalarType type, b
     const std::string_view block = reader_.raw(product(count, size_of(type)), "binary data");
     if (!keep) return values;
     values.resize(count);
-    for (std::size_t i = 0; i < count; ++i) values[i] = decode(type, block.data() + i * size_of(type), true);
+    for (std::size_t i = 0; i < count; ++i)
+        values[i] = decode(type, block.data() + i * size_of(type), true);
     return values;
 }
 
@@ -173,7 +187,8 @@ void VtkReader::read_cells_version_5(std::size_t offset_count, std::size_t corne
     reader_.next();  // OFFSETS
     double previous = 0;
     for (const double offset : read_typed_values(offset_count)) {
-        if (!(offset >= previous && offset <= static_cast<double>(corner_count))) reader_.fail("the OFFSETS of the cells do not rise");
+        if (!(offset >= previous && offset <= static_cast<double>(corner_count)))
+            reader_.fail("the OFFSETS of the cells do not rise");
         previous = offset;
         offsets_.push_back(static_cast<std::size_t>(offset));
     }
@@ -212,7 +227,8 @@ void VtkReader::read_field() {
         const std::size_t components = reader_.count("the number of components");
         const std::size_t tuples = reader_.count("the number of values");
         if (attributes_ != Attributes::none && tuples != attribute_count_)
-            reader_.fail(fmt::format("array {} has {} values, not {}", in_quotes(name), tuples, attribute_count_));
+            reader_.fail(
+                fmt::format("array {} has {} values, not {}", in_quotes(name), tuples, attribute_count_));
         keep_array(name, components, read_typed_values(product(components, tuples)));
     }
 }
@@ -236,16 +252,20 @@ RawMesh VtkReader::assemble() {
         if (offsets_[cell + 1] - offsets_[cell] != 4)
             fail_input(fmt::format("cell {} (from 0) is a tetrahedron without four nodes", cell));
         std::array<std::int64_t, 4> nodes{};
-        for (int i = 0; i < 4; ++i) nodes[i] = static_cast<std::int64_t>(corners_[offsets_[cell] + i]);
+        for (int i = 0; i < 4; ++i)
+            nodes[i] = static_cast<std::int64_t>(corners_[offsets_[cell] + i]);
         mesh.tetrahedra.push_back(nodes);
         mesh.tetrahedron_numbers.push_back(static_cast<std::int64_t>(cell));
     }
-    for (const auto& [type, count] : others) mesh.other_cells.emplace_back(cell_type_name(type), count);
+    for (const auto& [type, count] : others)
+        mesh.other_cells.emplace_back(cell_type_name(type), count);
     for (const CellArray& array : arrays_) {
         if (array.values.size() != cells)
-            fail_input(fmt::format("cell array {} has {} values for {} cells", in_quotes(array.name), array.values.size(), cells));
+            fail_input(fmt::format("cell array {} has {} values for {} cells", in_quotes(array.name),
+                                   array.values.size(), cells));
         CellArray kept{array.name, {}};
-        for (const std::int64_t cell : mesh.tetrahedron_numbers) kept.values.push_back(array.values[static_cast<std::size_t>(cell)]);
+        for (const std::int64_t cell : mesh.tetrahedron_numbers)
+            kept.values.push_back(array.values[static_cast<std::size_t>(cell)]);
         mesh.cell_arrays.push_back(std::move(kept));
     }
     for (const std::string& name : left_out_)
@@ -255,6 +275,8 @@ RawMesh VtkReader::assemble() {
 
 }  // namespace
 
-RawMesh read_vtk(std::string_view content) { return VtkReader(content).read(); }
+RawMesh read_vtk(std::string_view content) {
+    return VtkReader(content).read();
+}
 
 }  // namespace knead::tools

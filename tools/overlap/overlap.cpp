@@ -4,13 +4,13 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/error.h"
 #include "overlap/candidates.h"
+#include "overlap/with_threads.h"
 
 namespace knead::tools {
 namespace {
@@ -44,7 +44,7 @@ std::vector<Row> compute_rows(const std::vector<PreparedTet>& fine, const std::v
     const BoxTree tree(fine);
     std::vector<Row> rows(coarse.size());
     tbb::enumerable_thread_specific<Worker> workers;
-    tbb::task_arena(static_cast<int>(options.threads)).execute([&] {
+    with_threads(options.threads, [&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, coarse.size()), [&](const auto& range) {
             Worker& worker = workers.local();
             for (std::size_t j = range.begin(); j != range.end(); ++j) {

@@ -2,7 +2,6 @@
 #include "overlap/prepared_tet.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "overlap/exact.h"
 #include "overlap/plane_values.h"
 #include "overlap/rounding.h"
+#include "overlap/with_threads.h"
 
 namespace knead::tools {
 namespace {
@@ -45,9 +45,7 @@ Corners corners_of(const TetMesh& mesh, std::size_t tetrahedron, int exponent) {
 
 template <class Function>
 void for_each_tetrahedron(const TetMesh& mesh, unsigned threads, const Function& function) {
-    tbb::task_arena(static_cast<int>(threads)).execute([&] {
-        tbb::parallel_for(std::size_t{0}, mesh.tetrahedra.size(), function);
-    });
+    with_threads(threads, [&] { tbb::parallel_for(std::size_t{0}, mesh.tetrahedra.size(), function); });
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ Cut<Real> find_cuts(const Piece<Real>& values, const std::array<double, 4>& erro
 /// Share of a inside b with certainty, or nothing. A share that could be no more than the doubt about it is
 /// not certain: the two may only touch.
 template <class Real>
-std::optional<double> certain_share(const Corners& a, const Faces<Real>& b, const std::array<double, 4>& errors) {
+std::optional<double> certain_share(const Corners& a, const Faces<Real>& b,
+                                    const std::array<double, 4>& errors) {
     const Cut<Real> cut = find_cuts(plane_values(a, b), errors);
     if (cut.doubt > kDoubtAllowed) return std::nullopt;
     if (cut.outside) return 0.0;

@@ -23,7 +23,8 @@ void require(const Status& status) {
 Eigen::Matrix3d edges(const Tetrahedron& nodes, const Eigen::VectorXd& positions) {
     Eigen::Matrix3d result;
     for (int k = 0; k < 3; ++k)
-        result.col(k) = positions.segment<3>(3 * nodes[k + 1]) - positions.segment<3>(3 * nodes[0]);
+        result.col(k) =
+            positions.segment<3>(first_unknown(nodes[k + 1])) - positions.segment<3>(first_unknown(nodes[0]));
     return result;
 }
 
@@ -78,7 +79,7 @@ Eigen::VectorXd ElasticBody::gradient_n(const Eigen::VectorXd& positions_m) cons
         const Eigen::Matrix<double, 3, 4> forces =
             element.volume_m3 * evaluate(element, positions_m).stress_pa() * element.shape_gradients;
         for (int a = 0; a < 4; ++a)
-            gradient.segment<3>(3 * element.nodes[a]) += forces.col(a);
+            gradient.segment<3>(first_unknown(element.nodes[a])) += forces.col(a);
     }
     return gradient;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "knead/formats/material.h"
@@ -12,6 +13,11 @@
 namespace knead::tools {
 
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
+
+/// Index of a node's x among the unknowns; y and z follow.
+[[nodiscard]] constexpr Eigen::Index first_unknown(std::uint32_t node) {
+    return 3 * Eigen::Index{node};
+}
 
 /// A heterogeneous body of corotational linear tetrahedra: its elastic energy and the derivatives of it.
 ///

@@ -88,13 +88,14 @@ Eigen::VectorXd stiffness_times(const ElasticBody& body, const Eigen::VectorXd& 
                                 Curvature curvature, const Eigen::VectorXd& direction) {
     Eigen::VectorXd product = Eigen::VectorXd::Zero(direction.size());
     for (std::size_t t = 0; t < body.tetrahedron_count(); ++t) {
-        Eigen::Matrix<double, 12, 1> local;
+        const Tetrahedron& nodes = body.nodes_of(t);
+        Eigen::Matrix<double, 3, 4> local;
         for (int a = 0; a < 4; ++a)
-            local.segment<3>(3 * a) = direction.segment<3>(3 * body.nodes_of(t)[a]);
+            local.col(a) = direction.segment<3>(first_unknown(nodes[a]));
         if (local.isZero(0)) continue;
-        local = body.stiffness_n_per_m(t, positions_m, curvature) * local.eval();
+        local.reshaped() = body.stiffness_n_per_m(t, positions_m, curvature) * local.reshaped().eval();
         for (int a = 0; a < 4; ++a)
-            product.segment<3>(3 * body.nodes_of(t)[a]) += local.segment<3>(3 * a);
+            product.segment<3>(first_unknown(nodes[a])) += local.col(a);
     }
     return product;
 }

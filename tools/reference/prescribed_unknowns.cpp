@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "reference/elastic_body.h"
 
 namespace knead::tools {
 namespace {
@@ -68,8 +69,10 @@ std::vector<Point> to_points(const Eigen::VectorXd& unknowns) {
 std::vector<Point> reactions(const PrescribedMotion& motion, const Eigen::VectorXd& holding_n) {
     std::vector<Point> result;
     result.reserve(motion.nodes.size());
-    for (const std::uint32_t node : motion.nodes)
-        result.push_back({-holding_n[3 * node], -holding_n[3 * node + 1], -holding_n[3 * node + 2]});
+    for (const std::uint32_t node : motion.nodes) {
+        const Eigen::Index x = first_unknown(node);
+        result.push_back({-holding_n[x], -holding_n[x + 1], -holding_n[x + 2]});
+    }
     return result;
 }
 

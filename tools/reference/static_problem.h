@@ -41,8 +41,8 @@ struct NewtonLimits {
     double relative_residual =
         1e-10;                ///< residual over force scale; rounding noise of the forces is the floor
     int max_iterations = 60;  ///< of one load step
-    /// Equal parts the motion is cut into at least, >= 1. A body crushed by about 30 % or more has several
-    /// equilibria: one go may land on another than a slow press comes to; more parts follow the slow press.
+    /// Equal parts the motion is cut into at least, >= 1. A strongly crushed body has several equilibria
+    /// (docs/reference.md): one go may land on another than a slow press comes to; more parts follow it.
     int load_steps = 1;
     int max_load_steps = 1024;  ///< the smallest load step is one over this
 };

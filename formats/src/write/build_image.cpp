@@ -58,10 +58,11 @@ struct Image {
 
 h5::Handle in_memory(Image& image, std::size_t payload_bytes) {
     h5::Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    const std::size_t step = std::clamp<std::size_t>(payload_bytes / 4, std::size_t{1} << 16, std::size_t{1} << 26);
+    const std::size_t step =
+        std::clamp<std::size_t>(payload_bytes / 4, std::size_t{1} << 16, std::size_t{1} << 26);
     check(H5Pset_fapl_core(access.get(), step, false), "a file in memory");
-    H5FD_file_image_callbacks_t callbacks{Image::allocate, nullptr,       Image::reallocate, Image::release,
-                                          Image::borrow,   Image::give_back, &image};
+    H5FD_file_image_callbacks_t callbacks{
+        Image::allocate, nullptr, Image::reallocate, Image::release, Image::borrow, Image::give_back, &image};
     check(H5Pset_file_image_callbacks(access.get(), &callbacks), "a file in memory");
     check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), "a file of this version");
     check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), "a file in memory");
@@ -80,7 +81,8 @@ class Writer {
         for (const auto& [path, node] : payload.nodes) {
             const h5::Handle object = node.is_group ? create_group(path) : dataset(path, node.value);
             check(object, path);
-            for (const auto& [name, value] : node.attributes) attribute(object.get(), name, value);
+            for (const auto& [name, value] : node.attributes)
+                attribute(object.get(), name, value);
         }
     }
 
@@ -88,12 +90,13 @@ class Writer {
         const h5::Handle type = h5::stored_type(value);
         const h5::Handle space = dataspace(value);
         const h5::Handle creation = storage(value);
-        h5::Handle dataset(
-            H5Dcreate2(file_, path.c_str(), type.get(), space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
-            H5Dclose);
+        h5::Handle dataset(H5Dcreate2(file_, path.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                                      creation.get(), H5P_DEFAULT),
+                           H5Dclose);
         check(dataset, path);
         if (!value.bytes.empty())
-            check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.bytes.data()), path);
+            check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.bytes.data()),
+                  path);
         return dataset;
     }
 
@@ -137,7 +140,8 @@ class Writer {
         std::vector<hsize_t> chunk(value.extents.begin(), value.extents.end());
         const std::size_t row_bytes = value.bytes.size() / value.extents[0];
         chunk[0] = std::clamp<hsize_t>(kChunkBytes / row_bytes, 1, chunk[0]);
-        check(H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data()), "a chunked dataset");
+        check(H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data()),
+              "a chunked dataset");
         if (size_of(value.type) > 1) check(H5Pset_shuffle(creation.get()), "a shuffled dataset");
         check(H5Pset_deflate(creation.get(), kDeflateLevel), "a compressed dataset");
         check(H5Pset_fletcher32(creation.get()), "a dataset with checksums");
@@ -162,20 +166,24 @@ void write_vtk_part(Writer& writer, const Payload& payload, const VtkPart& vtk) 
         const h5::Handle dataset = writer.dataset(name, value);
         writer.attribute(dataset.get(), "units", text_value("1"));
     };
-    const auto count = [](std::uint64_t n) { return copy_1d(std::array<std::int64_t, 1>{static_cast<std::int64_t>(n)}); };
+    const auto count = [](std::uint64_t n) {
+        return copy_1d(std::array<std::int64_t, 1>{static_cast<std::int64_t>(n)});
+    };
     add("/VTKHDF/NumberOfPoints", count(points));
     add("/VTKHDF/NumberOfCells", count(cells));
     add("/VTKHDF/NumberOfConnectivityIds", count(4 * cells));
     writer.link(vtk.nodes, "/VTKHDF/Points");
     writer.link(vtk.tetrahedra, "/VTKHDF/Connectivity");
     std::vector<std::int32_t> offsets(cells + 1);
-    for (std::size_t i = 0; i <= cells; ++i) offsets[i] = static_cast<std::int32_t>(4 * i);
+    for (std::size_t i = 0; i <= cells; ++i)
+        offsets[i] = static_cast<std::int32_t>(4 * i);
     const std::vector<std::uint8_t> types(cells, kVtkTetrahedron);
     add("/VTKHDF/Offsets", view_1d(offsets));
     add("/VTKHDF/Types", view_1d(types));
     writer.group("/VTKHDF/PointData");
     writer.group("/VTKHDF/CellData");
-    for (const CellDataLink& link : vtk.cell_data) writer.link(link.target, "/VTKHDF/CellData/" + link.name);
+    for (const CellDataLink& link : vtk.cell_data)
+        writer.link(link.target, "/VTKHDF/CellData/" + link.name);
 }
 
 void write_root(Writer& writer, hid_t root, const FilePlan& plan) {
@@ -188,7 +196,8 @@ void write_root(Writer& writer, hid_t root, const FilePlan& plan) {
 
 std::size_t total_bytes(const Payload& payload) {
     std::size_t total = 0;
-    for (const auto& [path, node] : payload.nodes) total += node.value.bytes.size();
+    for (const auto& [path, node] : payload.nodes)
+        total += node.value.bytes.size();
     return total;
 }
 

@@ -11,11 +11,13 @@ namespace {
 /// What VTK shows an array as: printable, without '/', and not the name of another one.
 std::string cell_data_name(const std::string& name, std::set<std::string>& taken) {
     std::string safe;
-    for (const char c : name) safe += (c > ' ' && c < '\x7f' && c != '/') ? c : '_';
+    for (const char c : name)
+        safe += (c > ' ' && c < '\x7f' && c != '/') ? c : '_';
     if (safe == "." || safe == "..") safe = "_";
     safe.resize(std::min<std::size_t>(safe.size(), 200));
     std::string unique = safe;
-    for (int i = 2; !taken.insert(unique).second; ++i) unique = safe + "_" + std::to_string(i);
+    for (int i = 2; !taken.insert(unique).second; ++i)
+        unique = safe + "_" + std::to_string(i);
     return unique;
 }
 
@@ -31,8 +33,8 @@ void encode_regions(FilePlan& plan, const Regions& regions, const std::string& g
 void encode_cell_arrays(FilePlan& plan, const std::vector<CellArray>& arrays, const std::string& group) {
     if (arrays.empty()) return;
     plan.payload.add_group(group);
-    std::set<std::string> taken{"region",  "youngs_modulus_pa", "poissons_ratio", "density_kg_per_m3",
-                                "bin", "material_bin",      "cluster"};
+    std::set<std::string> taken{"region", "youngs_modulus_pa", "poissons_ratio", "density_kg_per_m3",
+                                "bin",    "material_bin",      "cluster"};
     for (std::size_t i = 0; i < arrays.size(); ++i) {
         const std::string path = group + "/" + list_name(i);
         Node& node = plan.payload.add_dataset(path, view_1d(arrays[i].values), "as named");
@@ -48,7 +50,8 @@ std::string list_name(std::size_t index) {
     return std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
 }
 
-void encode_nodes_and_tetrahedra(Payload& payload, const std::string& group, const std::vector<Point>& nodes_m,
+void encode_nodes_and_tetrahedra(Payload& payload, const std::string& group,
+                                 const std::vector<Point>& nodes_m,
                                  const std::vector<Tetrahedron>& tetrahedra) {
     payload.add_group(group);
     payload.add_dataset(group + "/nodes_m", view_2d(nodes_m), "m");
@@ -89,7 +92,8 @@ void encode_provenance(Payload& payload, const Provenance& provenance) {
     node.attributes["tool"] = text_value(provenance.tool);
     node.attributes["tool_version"] = text_value(provenance.tool_version);
     node.attributes["seed"] = scalar(provenance.seed);
-    for (const std::string& argument : provenance.arguments) check_text(argument, "an argument", group);
+    for (const std::string& argument : provenance.arguments)
+        check_text(argument, "an argument", group);
     if (!provenance.arguments.empty())
         payload.add_dataset(group + "/arguments", text_array(provenance.arguments), "none");
     if (provenance.inputs.empty()) return;

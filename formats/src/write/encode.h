@@ -36,7 +36,8 @@ struct FilePlan {
 };
 
 // One encoder per part; the views in the payload look at the arguments, which must outlive it.
-void encode_nodes_and_tetrahedra(Payload& payload, const std::string& group, const std::vector<Point>& nodes_m,
+void encode_nodes_and_tetrahedra(Payload& payload, const std::string& group,
+                                 const std::vector<Point>& nodes_m,
                                  const std::vector<Tetrahedron>& tetrahedra);
 void encode_mesh(FilePlan& plan, const TetMesh& mesh);
 void encode_material(FilePlan& plan, const Material& material, const std::string& bin_name);
@@ -51,7 +52,8 @@ Value view_1d(const std::vector<T>& elements) {
 }
 template <class T, std::size_t N>
 Value view_2d(const std::vector<std::array<T, N>>& rows) {
-    return view_of(std::span<const T>(rows.empty() ? nullptr : rows[0].data(), rows.size() * N), {rows.size(), N});
+    return view_of(std::span<const T>(rows.empty() ? nullptr : rows[0].data(), rows.size() * N),
+                   {rows.size(), N});
 }
 template <class T, std::size_t N>
 Value copy_1d(const std::array<T, N>& elements) {
@@ -83,7 +85,8 @@ void replace_file(const std::filesystem::path& file, std::span<const std::byte> 
 
 /// The frame of every public writer: `encode` validates and fills the plan.
 template <class Encode>
-Status write_kind(const std::filesystem::path& file, FileKind kind, const Provenance& provenance, Encode&& encode) {
+Status write_kind(const std::filesystem::path& file, FileKind kind, const Provenance& provenance,
+                  Encode&& encode) {
     return guarded(file.string(), [&] {
         try {
             FilePlan plan;

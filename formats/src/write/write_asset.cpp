@@ -29,14 +29,16 @@ void encode_palette(Payload& payload, const Asset& asset) {
         densities.push_back(entry.density_kg_per_m3);
     }
     const auto add = [&](const char* name, const std::vector<double>& values, const char* units) {
-        payload.add_dataset(palette + "/" + name, copy_of(std::span<const double>(values), {values.size()}), units);
+        payload.add_dataset(palette + "/" + name, copy_of(std::span<const double>(values), {values.size()}),
+                            units);
     };
     payload.add_group(group);
     payload.add_group(palette);
     add("youngs_modulus_pa", moduli, "Pa");
     add("poissons_ratio", ratios, "1");
     add("density_kg_per_m3", densities, "kg/m^3");
-    payload.add_dataset(group + "/palette_index", narrow_index(asset.palette_index, asset.palette.size()), "1");
+    payload.add_dataset(group + "/palette_index", narrow_index(asset.palette_index, asset.palette.size()),
+                        "1");
 }
 
 void encode_tool(Payload& payload, const ToolSet& tool, const std::string& path) {
@@ -60,7 +62,8 @@ void encode_optional_groups(Payload& payload, const Asset& asset) {
         encode_tool(payload, asset.tools[i], kAsset + "/tools/" + list_name(i));
     if (asset.gravity_m_per_s2 != Point{}) {
         payload.add_group(kAsset + "/gravity");
-        payload.add_dataset(kAsset + "/gravity/acceleration_m_per_s2", copy_1d(asset.gravity_m_per_s2), "m/s^2");
+        payload.add_dataset(kAsset + "/gravity/acceleration_m_per_s2", copy_1d(asset.gravity_m_per_s2),
+                            "m/s^2");
     }
     if (asset.damping_per_s != 0) {
         payload.add_group(kAsset + "/damping");
@@ -87,7 +90,8 @@ void encode_requests(Payload& provenance, const std::vector<Asset::Request>& req
     provenance.add_group(group);
     provenance.add_dataset(group + "/groups", text_array(groups), "none");
     provenance.add_dataset(group + "/scene_keys", text_array(keys), "none");
-    provenance.add_dataset(group + "/scene_lines", copy_of(std::span<const std::uint32_t>(lines), {lines.size()}), "1");
+    provenance.add_dataset(group + "/scene_lines",
+                           copy_of(std::span<const std::uint32_t>(lines), {lines.size()}), "1");
 }
 
 }  // namespace
@@ -104,7 +108,8 @@ Status write_asset(const std::filesystem::path& file, const Asset& asset, const 
         encode_palette(plan.payload, asset);
         encode_optional_groups(plan.payload, asset);
         encode_requests(plan.provenance, asset.requests);
-        plan.vtk = VtkPart{mesh + "/nodes_m", mesh + "/tetrahedra",
+        plan.vtk = VtkPart{mesh + "/nodes_m",
+                           mesh + "/tetrahedra",
                            {{"material_index", kAsset + "/material/palette_index"}}};
     });
 }

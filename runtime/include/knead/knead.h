@@ -5,8 +5,8 @@
  * Plain C (C99 and later, C++ too). SI units: metres, newtons, seconds, kilograms; right-handed scene frame;
  * quaternions as w, x, y, z. No function throws, exits or prints.
  *
- * Versioning: every struct starts with `struct_size`, set by its init function. Later versions only append members;
- * a library older than the caller leaves members it does not know alone.
+ * Versioning: every struct starts with `struct_size`, set by its init function. Later versions only append
+ * members; a library older than the caller leaves members it does not know alone.
  *
  * Threads: one thread at a time per handle; different handles are independent. knead_simulation_step() and
  * knead_simulation_reset() never allocate, lock or do I/O.
@@ -29,11 +29,11 @@ extern "C" {
 /* Zero, or the number of the library's error; never renumbered. */
 typedef enum knead_error {
     KNEAD_OK = 0,
-    KNEAD_ERROR_IO = 1,                   /* cannot open, read or find the file */
-    KNEAD_ERROR_NOT_KNEAD = 2,            /* not an HDF5 file, or one without Knead's header */
-    KNEAD_ERROR_VERSION_UNSUPPORTED = 3,  /* file written by a newer format */
-    KNEAD_ERROR_FEATURE_UNSUPPORTED = 4,  /* file needs a feature this library does not know */
-    KNEAD_ERROR_WRONG_KIND = 5,           /* a Knead file, but not an asset */
+    KNEAD_ERROR_IO = 1,                  /* cannot open, read or find the file */
+    KNEAD_ERROR_NOT_KNEAD = 2,           /* not an HDF5 file, or one without Knead's header */
+    KNEAD_ERROR_VERSION_UNSUPPORTED = 3, /* file written by a newer format */
+    KNEAD_ERROR_FEATURE_UNSUPPORTED = 4, /* file needs a feature this library does not know */
+    KNEAD_ERROR_WRONG_KIND = 5,          /* a Knead file, but not an asset */
     KNEAD_ERROR_MISSING = 6,
     KNEAD_ERROR_WRONG_TYPE = 7,
     KNEAD_ERROR_WRONG_EXTENT = 8,
@@ -43,7 +43,7 @@ typedef enum knead_error {
     KNEAD_ERROR_INVALID_DATA = 12,
     KNEAD_ERROR_CANNOT_WRITE = 13,
     KNEAD_ERROR_OUT_OF_MEMORY = 14,
-    KNEAD_ERROR_INVALID_ARGUMENT = 15     /* null pointer, unknown struct_size, config out of range */
+    KNEAD_ERROR_INVALID_ARGUMENT = 15 /* null pointer, unknown struct_size, config out of range */
 } knead_error;
 
 /* What happened in a step: bits of knead_step_result.status. Zero is a good step. */
@@ -57,8 +57,8 @@ enum {
 /* Choices of the application; knead_config_init() sets the defaults. See knead/runtime/config.h. */
 typedef struct knead_config {
     size_t struct_size;
-    size_t tool;                       /* index of the asset's tool that the poses move */
-    double force_tolerance;            /* relative, of one step */
+    size_t tool;            /* index of the asset's tool that the poses move */
+    double force_tolerance; /* relative, of one step */
     int32_t max_solver_iterations;
     int32_t max_contact_passes;
     double coupling_stiffness_n_per_m; /* 0: no coupling, the tool is at the given pose */
@@ -69,9 +69,9 @@ typedef struct knead_config {
 /* What one step yields; knead_step_result_init() sets struct_size. */
 typedef struct knead_step_result {
     size_t struct_size;
-    double force_n[3];          /* on the hand */
+    double force_n[3]; /* on the hand */
     double tool_position_m[3];
-    uint32_t status;            /* KNEAD_STEP_* bits */
+    uint32_t status; /* KNEAD_STEP_* bits */
     uint32_t solver_iterations;
     uint32_t touched_nodes;
 } knead_step_result;
@@ -90,9 +90,9 @@ KNEAD_RUNTIME_API knead_error knead_simulation_load(const char* asset_path, cons
 /* NULL is allowed. */
 KNEAD_RUNTIME_API void knead_simulation_free(knead_simulation* simulation) KNEAD_NOEXCEPT;
 
-/* Advances by dt_s (0.25e-3 to 20e-3) with the tool, or the hand if coupled, at this pose at the end of the step.
- * orientation_wxyz may be NULL: the tool's rest orientation. Returns KNEAD_OK also when result->status has bits set;
- * KNEAD_ERROR_INVALID_ARGUMENT only for null pointers or an unset struct_size. */
+/* Advances by dt_s (0.25e-3 to 20e-3) with the tool, or the hand if coupled, at this pose at the end of the
+ * step. orientation_wxyz may be NULL: the tool's rest orientation. Returns KNEAD_OK also when result->status
+ * has bits set; KNEAD_ERROR_INVALID_ARGUMENT only for null pointers or an unset struct_size. */
 KNEAD_RUNTIME_API knead_error knead_simulation_step(knead_simulation* simulation, const double position_m[3],
                                                     const double orientation_wxyz[4], double dt_s,
                                                     knead_step_result* result) KNEAD_NOEXCEPT;
@@ -101,17 +101,20 @@ KNEAD_RUNTIME_API knead_error knead_simulation_step(knead_simulation* simulation
 KNEAD_RUNTIME_API knead_error knead_simulation_reset(knead_simulation* simulation) KNEAD_NOEXCEPT;
 
 /* The tool's rest pose from the asset: start here. */
-KNEAD_RUNTIME_API knead_error knead_simulation_rest_pose(const knead_simulation* simulation, double position_m[3],
+KNEAD_RUNTIME_API knead_error knead_simulation_rest_pose(const knead_simulation* simulation,
+                                                         double position_m[3],
                                                          double orientation_wxyz[4]) KNEAD_NOEXCEPT;
 
 KNEAD_RUNTIME_API size_t knead_simulation_node_count(const knead_simulation* simulation) KNEAD_NOEXCEPT;
-KNEAD_RUNTIME_API size_t knead_simulation_tetrahedron_count(const knead_simulation* simulation) KNEAD_NOEXCEPT;
+KNEAD_RUNTIME_API size_t knead_simulation_tetrahedron_count(const knead_simulation* simulation)
+    KNEAD_NOEXCEPT;
 
 /* node_count x 3 current positions, asset node order; valid until the next step. NULL for NULL. */
-KNEAD_RUNTIME_API const double* knead_simulation_positions_m(const knead_simulation* simulation) KNEAD_NOEXCEPT;
+KNEAD_RUNTIME_API const double* knead_simulation_positions_m(const knead_simulation* simulation)
+    KNEAD_NOEXCEPT;
 
-/* Text of the last call on this handle that did not return KNEAD_OK; with NULL: of the last failed load on this
- * thread. Never NULL, empty if there was none; valid until the next call of that kind. */
+/* Text of the last call on this handle that did not return KNEAD_OK; with NULL: of the last failed load on
+ * this thread. Never NULL, empty if there was none; valid until the next call of that kind. */
 KNEAD_RUNTIME_API const char* knead_last_error(const knead_simulation* simulation) KNEAD_NOEXCEPT;
 
 /* "io_error", ...; "unknown" for other numbers. */

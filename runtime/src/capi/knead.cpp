@@ -50,7 +50,8 @@ knead::SimulationConfig to_cpp(const knead_config& config) noexcept {
 
 knead_error load(const char* asset_path, const knead_config& config, knead_simulation** out) {
     auto loaded = knead::Simulation::load(std::filesystem::u8path(asset_path), to_cpp(config));
-    if (!loaded) return fail_load(static_cast<knead_error>(loaded.error().code), loaded.error().text().c_str());
+    if (!loaded)
+        return fail_load(static_cast<knead_error>(loaded.error().code), loaded.error().text().c_str());
     *out = new knead_simulation{std::move(loaded).value()};
     load_error[0] = '\0';
     return KNEAD_OK;
@@ -94,8 +95,9 @@ knead_error knead_simulation_load(const char* asset_path, const knead_config* co
     knead_config_init(&used);
     if (config != nullptr) {
         if (config->struct_size < kFirstConfigBytes) {
-            return fail_load(KNEAD_ERROR_INVALID_ARGUMENT,
-                             "knead_simulation_load: config->struct_size is not set; call knead_config_init()");
+            return fail_load(
+                KNEAD_ERROR_INVALID_ARGUMENT,
+                "knead_simulation_load: config->struct_size is not set; call knead_config_init()");
         }
         std::memcpy(&used, config, std::min(config->struct_size, sizeof(used)));
     }
@@ -110,10 +112,13 @@ knead_error knead_simulation_load(const char* asset_path, const knead_config* co
     }
 }
 
-void knead_simulation_free(knead_simulation* simulation) noexcept { delete simulation; }
+void knead_simulation_free(knead_simulation* simulation) noexcept {
+    delete simulation;
+}
 
 knead_error knead_simulation_step(knead_simulation* simulation, const double position_m[3],
-                                  const double orientation_wxyz[4], double dt_s, knead_step_result* result) noexcept {
+                                  const double orientation_wxyz[4], double dt_s,
+                                  knead_step_result* result) noexcept {
     if (simulation == nullptr) return KNEAD_ERROR_INVALID_ARGUMENT;
     if (position_m == nullptr) return fail(*simulation, "knead_simulation_step: position_m is NULL");
     if (result == nullptr) return fail(*simulation, "knead_simulation_step: result is NULL");
@@ -167,10 +172,22 @@ const char* knead_last_error(const knead_simulation* simulation) noexcept {
 }
 
 const char* knead_error_name(knead_error error) noexcept {
-    static constexpr const char* kNames[] = {
-        "ok",           "io_error",  "not_knead", "version_unsupported", "feature_unsupported", "wrong_kind",
-        "missing",      "wrong_type", "wrong_extent", "too_large",        "forbidden",           "corrupt",
-        "invalid_data", "cannot_write", "out_of_memory", "invalid_argument"};
+    static constexpr const char* kNames[] = {"ok",
+                                             "io_error",
+                                             "not_knead",
+                                             "version_unsupported",
+                                             "feature_unsupported",
+                                             "wrong_kind",
+                                             "missing",
+                                             "wrong_type",
+                                             "wrong_extent",
+                                             "too_large",
+                                             "forbidden",
+                                             "corrupt",
+                                             "invalid_data",
+                                             "cannot_write",
+                                             "out_of_memory",
+                                             "invalid_argument"};
     const auto index = static_cast<std::size_t>(error);
     return index < std::size(kNames) ? kNames[index] : "unknown";
 }
@@ -184,4 +201,6 @@ const char* knead_step_status_name(uint32_t status) noexcept {
     return "unknown";
 }
 
-const char* knead_version(void) noexcept { return knead::kLibraryVersion; }
+const char* knead_version(void) noexcept {
+    return knead::kLibraryVersion;
+}

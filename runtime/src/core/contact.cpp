@@ -117,7 +117,8 @@ bool Contact::revise(const Frame& tool, const Field& predicted_m, const Solution
     moved.position += solution.displacement.tool;
     for (Candidate& candidate : candidates_) {
         if (candidate.held || candidate.caught || candidate.let_go || candidate.beyond) continue;
-        const Vec local = moved.to_local(predicted_m[candidate.node] + solution.displacement.nodes[candidate.node]);
+        const Vec local =
+            moved.to_local(predicted_m[candidate.node] + solution.displacement.nodes[candidate.node]);
         if (depth(local) <= gap_tolerance_m_ || beside(local)) continue;
         place_on_surface(candidate, local);
         candidate.held = true;

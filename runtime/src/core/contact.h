@@ -8,10 +8,10 @@ namespace knead::core {
 
 /// Which nodes the tool holds, and how: hard constraints by an active set that starts from the step before.
 ///
-/// Bonded: all of the tool's nodes, always, rigidly. Unilateral: a node that would pass the surface is held on it
-/// (sticking: at the point where it came; frictionless: along the normal only, the tangent plane taken anew each
-/// step), and let go when it would have to be pulled. Within one step a node is caught at most once and let go at
-/// most once, so that passes end. No penalty forces. Allocates in the constructor only.
+/// Bonded: all of the tool's nodes, always, rigidly. Unilateral: a node that would pass the surface is held
+/// on it (sticking: at the point where it came; frictionless: along the normal only, the tangent plane taken
+/// anew each step), and let go when it would have to be pulled. Within one step a node is caught at most once
+/// and let go at most once, so that passes end. No penalty forces. Allocates in the constructor only.
 class Contact {
   public:
     /// @param tool valid, of the asset that `model` was built from
@@ -44,9 +44,9 @@ class Contact {
     struct Candidate {
         std::uint32_t node = 0;
         bool held = false;
-        bool beyond = false;    ///< behind the plate's plane, but it went there beside the rectangle
-        bool caught = false;    ///< in this step
-        bool let_go = false;    ///< in this step
+        bool beyond = false;  ///< behind the plate's plane, but it went there beside the rectangle
+        bool caught = false;  ///< in this step
+        bool let_go = false;  ///< in this step
         Vec anchor = Vec::Zero();
         Vec normal = Vec::Zero();  ///< out of the tool
     };

@@ -11,7 +11,8 @@ namespace {
 Mat edges(const std::array<std::uint32_t, 4>& nodes, const Field& x) {
     Mat result;
     const Vec& origin = x[nodes[0]];
-    for (int k = 0; k < 3; ++k) result.col(k) = x[nodes[k + 1]] - origin;
+    for (int k = 0; k < 3; ++k)
+        result.col(k) = x[nodes[k + 1]] - origin;
     return result;
 }
 
@@ -24,7 +25,8 @@ Mat linear_stress(const Element& element, const Mat& gradient) {
 
 /// Adds column k of `columns` to node k + 1 and takes their sum from node 0.
 void scatter(const std::array<std::uint32_t, 4>& nodes, const Mat& columns, Field& out) {
-    for (int k = 0; k < 3; ++k) out[nodes[k + 1]] += columns.col(k);
+    for (int k = 0; k < 3; ++k)
+        out[nodes[k + 1]] += columns.col(k);
     out[nodes[0]] -= columns.rowwise().sum();
 }
 
@@ -35,7 +37,9 @@ ElementPass::ElementPass(const Model& model)
     reset();
 }
 
-void ElementPass::reset() noexcept { std::fill(rotations_.begin(), rotations_.end(), Quat::Identity()); }
+void ElementPass::reset() noexcept {
+    std::fill(rotations_.begin(), rotations_.end(), Quat::Identity());
+}
 
 void ElementPass::linearise(const Model& model, const Field& x, Field& forces) noexcept {
     std::fill(forces.begin(), forces.end(), Vec::Zero());
@@ -70,7 +74,8 @@ void ElementPass::diagonal_blocks(const Model& model, std::vector<Mat>& blocks) 
             block.noalias() += (outer * g) * g.transpose();
             block.diagonal().array() += element.mu_volume * g.squaredNorm();
         };
-        for (int k = 0; k < 3; ++k) add(element.nodes[k + 1], gradients_[e].col(k));
+        for (int k = 0; k < 3; ++k)
+            add(element.nodes[k + 1], gradients_[e].col(k));
         add(element.nodes[0], -gradients_[e].rowwise().sum());
     }
 }
@@ -84,7 +89,8 @@ Mat ElementPass::reduced_stiffness(const Model& model, const std::vector<Mat>& c
         if (!(marked[n[0]] || marked[n[1]] || marked[n[2]] || marked[n[3]])) continue;
         for (int axis = 0; axis < 3; ++axis) {
             Mat moved;
-            for (int k = 0; k < 3; ++k) moved.col(k) = columns[n[k + 1]].col(axis) - columns[n[0]].col(axis);
+            for (int k = 0; k < 3; ++k)
+                moved.col(k) = columns[n[k + 1]].col(axis) - columns[n[0]].col(axis);
             const Mat forces = linear_stress(element, moved * gradients_[e].transpose()) * gradients_[e];
             for (int k = 0; k < 3; ++k) {
                 result.col(axis) += (columns[n[k + 1]] - columns[n[0]]).transpose() * forces.col(k);

@@ -8,8 +8,9 @@ namespace knead::core {
 /// The corotational linear tetrahedra (Mueller and Gross 2004): forces and their linearisation.
 ///
 /// Energy of one tetrahedron: volume * (mu |F - R|^2 + lambda / 2 * tr(R^T F - I)^2) with R the rotation of F
-/// (rotation.h); the force is its exact negative gradient. The stiffness K(R) is that of linear elasticity turned by R:
-/// symmetric, positive semidefinite in every state, and not assembled. Allocates in the constructor only.
+/// (rotation.h); the force is its exact negative gradient. The stiffness K(R) is that of linear elasticity
+/// turned by R: symmetric, positive semidefinite in every state, and not assembled. Allocates in the
+/// constructor only.
 class ElementPass {
   public:
     explicit ElementPass(const Model& model);
@@ -26,8 +27,8 @@ class ElementPass {
     /// @param blocks [nodes] out: the 3 x 3 diagonal blocks of K(R), N/m
     void diagonal_blocks(const Model& model, std::vector<Mat>& blocks) const noexcept;
 
-    /// E^T K(R) E for E = `columns` ([nodes], zero where `marked` is 0): the stiffness that a tool feels which moves
-    /// node i by columns[i] t. Visits only tetrahedra with a marked node.
+    /// E^T K(R) E for E = `columns` ([nodes], zero where `marked` is 0): the stiffness that a tool feels
+    /// which moves node i by columns[i] t. Visits only tetrahedra with a marked node.
     Mat reduced_stiffness(const Model& model, const std::vector<Mat>& columns,
                           const std::vector<std::uint8_t>& marked) const noexcept;
 

@@ -8,7 +8,8 @@ Element build_element(const Field& rest, const Tetrahedron& nodes, const Palette
     Element element;
     element.nodes = nodes;
     Mat edges;
-    for (int k = 0; k < 3; ++k) edges.col(k) = rest[nodes[k + 1]] - rest[nodes[0]];
+    for (int k = 0; k < 3; ++k)
+        edges.col(k) = rest[nodes[k + 1]] - rest[nodes[0]];
     // The inverse by cross products: its rows are gradients, its determinant six times the volume.
     const Vec a = edges.col(1).cross(edges.col(2));
     const Real determinant = edges.col(0).dot(a);
@@ -30,23 +31,27 @@ Model build_model(const Asset& asset) {
     Model model;
     model.free_count = asset.free_node_count;
     model.rest_m.reserve(asset.nodes_m.size());
-    for (const Point& p : asset.nodes_m) model.rest_m.emplace_back(p[0], p[1], p[2]);
+    for (const Point& p : asset.nodes_m)
+        model.rest_m.emplace_back(p[0], p[1], p[2]);
     model.mass_kg.assign(asset.nodes_m.size(), 0);
     model.elements.reserve(asset.tetrahedra.size());
     for (std::size_t t = 0; t < asset.tetrahedra.size(); ++t) {
         Real mass = 0;
-        model.elements.push_back(build_element(model.rest_m, asset.tetrahedra[t],
-                                               asset.palette[asset.palette_index[t]], mass));
-        for (const std::uint32_t node : asset.tetrahedra[t]) model.mass_kg[node] += mass / 4;
+        model.elements.push_back(
+            build_element(model.rest_m, asset.tetrahedra[t], asset.palette[asset.palette_index[t]], mass));
+        for (const std::uint32_t node : asset.tetrahedra[t])
+            model.mass_kg[node] += mass / 4;
     }
-    for (std::uint32_t i = 0; i < model.free_count; ++i) model.free_mass_kg += model.mass_kg[i];
+    for (std::uint32_t i = 0; i < model.free_count; ++i)
+        model.free_mass_kg += model.mass_kg[i];
     Vec low = model.rest_m.front(), high = low;
     for (const Vec& x : model.rest_m) {
         low = low.cwiseMin(x);
         high = high.cwiseMax(x);
     }
     model.size_m = (high - low).norm();
-    model.gravity_m_per_s2 = Vec(asset.gravity_m_per_s2[0], asset.gravity_m_per_s2[1], asset.gravity_m_per_s2[2]);
+    model.gravity_m_per_s2 =
+        Vec(asset.gravity_m_per_s2[0], asset.gravity_m_per_s2[1], asset.gravity_m_per_s2[2]);
     model.damping_per_s = asset.damping_per_s;
     return model;
 }

@@ -7,8 +7,8 @@ namespace knead::core {
 
 /// Block Jacobi: the inverse of every node's 3 x 3 diagonal block, and of the tool's.
 ///
-/// The solver asks three things of a preconditioner: refresh() once per linearisation, hold() whenever the set of
-/// held nodes changed, apply(). Allocates in the constructor only.
+/// The solver asks three things of a preconditioner: refresh() once per linearisation, hold() whenever the
+/// set of held nodes changed, apply(). Allocates in the constructor only.
 class BlockJacobi {
   public:
     explicit BlockJacobi(const Model& model);
@@ -22,7 +22,8 @@ class BlockJacobi {
     /// @param residual projected  @param out expanded
     void apply(const System& system, const Unknowns& residual, Unknowns& out) const noexcept;
 
-    /// The stiffness that the tool feels with all other nodes still, N/m: bounds how its force reacts to them.
+    /// The stiffness that the tool feels with all other nodes still, N/m: bounds how its force reacts to
+    /// them.
     [[nodiscard]] const Mat& tool_stiffness_n_per_m() const noexcept { return tool_stiffness_; }
 
   private:

@@ -32,7 +32,8 @@ Mat4 horn_matrix(const Mat& f) {
     n(2, 3) = f(1, 2) + f(2, 1);
     n(3, 3) = f(2, 2) - f(0, 0) - f(1, 1);
     for (int row = 1; row < 4; ++row) {
-        for (int column = 0; column < row; ++column) n(row, column) = n(column, row);
+        for (int column = 0; column < row; ++column)
+            n(row, column) = n(column, row);
     }
     return n;
 }
@@ -70,7 +71,8 @@ Quat nearest_rotation(const Mat& f) noexcept {
     Mat4 vectors = Mat4::Identity();
     for (int sweep = 0; sweep < kJacobiSweeps; ++sweep) {
         for (int p = 0; p < 3; ++p) {
-            for (int q = p + 1; q < 4; ++q) zero_entry(n, vectors, p, q);
+            for (int q = p + 1; q < 4; ++q)
+                zero_entry(n, vectors, p, q);
         }
     }
     int largest = 0;

@@ -11,7 +11,8 @@ namespace knead::core {
 /// direction of the smallest stretch, which lets the tetrahedron come back. Newton steps from a warm start
 /// (Kugelstadt, Koschier, Bender 2018, "Fast Corotated FEM using Operator Splitting"), accepted only where
 /// the second-order condition holds, because there the maximum is the global one; else nearest_rotation().
-/// @param warm_start in: a unit quaternion, best that of the step before; out: the result (kept if F is not finite)
+/// @param warm_start in: a unit quaternion, best that of the step before; out: the result (kept if F is not
+/// finite)
 Mat warm_rotation(const Mat& deformation_gradient, Quat& warm_start) noexcept;
 
 /// The same without a warm start: the largest eigenvector of Horn's symmetric 4 x 4 matrix (Horn 1987), by

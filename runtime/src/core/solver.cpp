@@ -16,18 +16,21 @@ constexpr int kFewestIterations = 2;
 
 Real dot(const System& system, const Unknowns& a, const Unknowns& b) {
     Real sum = a.tool.dot(b.tool);
-    for (std::uint32_t i = 0; i < system.model.free_count; ++i) sum += a.nodes[i].dot(b.nodes[i]);
+    for (std::uint32_t i = 0; i < system.model.free_count; ++i)
+        sum += a.nodes[i].dot(b.nodes[i]);
     return sum;
 }
 
 void add_scaled(const System& system, Real factor, const Unknowns& b, Unknowns& a) {
-    for (std::uint32_t i = 0; i < system.model.free_count; ++i) a.nodes[i] += factor * b.nodes[i];
+    for (std::uint32_t i = 0; i < system.model.free_count; ++i)
+        a.nodes[i] += factor * b.nodes[i];
     a.tool += factor * b.tool;
 }
 
 /// b = a + factor * b
 void update_direction(const System& system, const Unknowns& a, Real factor, Unknowns& b) {
-    for (std::uint32_t i = 0; i < system.model.free_count; ++i) b.nodes[i] = a.nodes[i] + factor * b.nodes[i];
+    for (std::uint32_t i = 0; i < system.model.free_count; ++i)
+        b.nodes[i] = a.nodes[i] + factor * b.nodes[i];
     b.tool = a.tool + factor * b.tool;
 }
 
@@ -40,7 +43,8 @@ class ErrorEstimate {
     }
     [[nodiscard]] Real squared() const {
         Real sum = 0;
-        for (const Real decrease : last_) sum += decrease;
+        for (const Real decrease : last_)
+            sum += decrease;
         return sum;
     }
 
@@ -68,14 +72,16 @@ Real force_sensitivity(const System& system, const Preconditioner& preconditione
 
 }  // namespace
 
-Solver::Solver(const Model& model, std::size_t max_constraints) : product_rows_(max_constraints, Vec::Zero()) {
+Solver::Solver(const Model& model, std::size_t max_constraints)
+    : product_rows_(max_constraints, Vec::Zero()) {
     for (Unknowns* u : {&residual_, &direction_, &product_, &preconditioned_}) {
         u->nodes.assign(model.rest_m.size(), Vec::Zero());
     }
 }
 
 void Solver::keep_rows(const System& system, const Unknowns& rows, std::vector<Vec>& kept) const noexcept {
-    for (std::size_t k = 0; k < system.constraints.size(); ++k) kept[k] = rows.nodes[system.constraints[k].node];
+    for (std::size_t k = 0; k < system.constraints.size(); ++k)
+        kept[k] = rows.nodes[system.constraints[k].node];
 }
 
 void Solver::start(const System& system, const Field& load, Solution& solution) noexcept {
@@ -96,7 +102,8 @@ void Solver::start(const System& system, const Field& load, Solution& solution) 
     }
     keep_rows(system, residual_, solution.reaction_n);
     const Real to_newtons = 1 / (system.dt_s * system.dt_s);
-    for (std::size_t k = 0; k < system.constraints.size(); ++k) solution.reaction_n[k] *= to_newtons;
+    for (std::size_t k = 0; k < system.constraints.size(); ++k)
+        solution.reaction_n[k] *= to_newtons;
     system.project(residual_);
 }
 

@@ -7,24 +7,26 @@ namespace knead::core {
 
 struct SolverLimits {
     int max_iterations = 500;
-    Real force_tolerance = 1e-4;           ///< relative, of the force on the hand
+    Real force_tolerance = 1e-4;             ///< relative, of the force on the hand
     Real velocity_tolerance_m_per_s = 1e-4;  ///< root mean square over the free mass
 };
 
 /// In: where to start. Out: the solution of one linear system and what the tool feels in it.
 struct Solution {
-    Unknowns displacement;        ///< expanded
-    std::vector<Vec> reaction_n;  ///< [constraints] force of the object on the tool at each held node, all of its row
-    Vec force_n = Vec::Zero();    ///< on the hand: sum of the held reactions, or the coupling's force
+    Unknowns displacement;  ///< expanded
+    std::vector<Vec>
+        reaction_n;  ///< [constraints] force of the object on the tool at each held node, all of its row
+    Vec force_n = Vec::Zero();  ///< on the hand: sum of the held reactions, or the coupling's force
     int iterations = 0;
     bool converged = false;
 };
 
 /// Conjugate gradients that stop on the force and on the velocities.
 ///
-/// The error in the energy norm is estimated by the decrease of the last iterations (Hestenes and Stiefel 1952;
-/// Strakos and Tichy 2002). It bounds the error of the tool's force through the stiffness the tool feels, and the
-/// velocity error through the mass; the force alone would let soft nodes drift. Allocates in the constructor only.
+/// The error in the energy norm is estimated by the decrease of the last iterations (Hestenes and Stiefel
+/// 1952; Strakos and Tichy 2002). It bounds the error of the tool's force through the stiffness the tool
+/// feels, and the velocity error through the mass; the force alone would let soft nodes drift. Allocates in
+/// the constructor only.
 class Solver {
   public:
     Solver(const Model& model, std::size_t max_constraints);

@@ -11,7 +11,8 @@ namespace {
 constexpr double kStepSlack = 1e-9;
 /// How far the norm of a unit quaternion may be from one.
 constexpr double kUnitTolerance = 1e-3;
-/// Root mean square of the velocity error that never is exceeded, whatever the force tolerance (runtime.md 3.3).
+/// Root mean square of the velocity error that never is exceeded, whatever the force tolerance
+/// (runtime.md 3.3).
 constexpr double kVelocityTolerance_m_per_s = 1e-4;
 
 bool valid_step(double dt_s) {
@@ -29,7 +30,9 @@ bool to_frame(const Pose& pose, Frame& frame) {
     return frame.position.allFinite();
 }
 
-Vec3 to_array(const Vec& v) { return {v.x(), v.y(), v.z()}; }
+Vec3 to_array(const Vec& v) {
+    return {v.x(), v.y(), v.z()};
+}
 
 }  // namespace
 
@@ -79,8 +82,10 @@ StepResult Stepper::step(const Pose& pose, double dt_s) noexcept {
 }
 
 void Stepper::predict(const Frame& hand, Real dt) noexcept {
-    for (std::uint32_t i = 0; i < model_.free_count; ++i) predicted_[i] = positions_[i] + dt * velocities_[i];
-    std::copy(positions_.begin() + model_.free_count, positions_.end(), predicted_.begin() + model_.free_count);
+    for (std::uint32_t i = 0; i < model_.free_count; ++i)
+        predicted_[i] = positions_[i] + dt * velocities_[i];
+    std::copy(positions_.begin() + model_.free_count, positions_.end(),
+              predicted_.begin() + model_.free_count);
     tool_ = hand;
     coupling_ = {};
     if (!coupled()) return;
@@ -91,7 +96,8 @@ void Stepper::predict(const Frame& hand, Real dt) noexcept {
     coupling_.moves = true;
     coupling_.mass_kg = config_.tool_mass_kg;
     coupling_.rate_n_per_m = stiffness + damping / dt;
-    coupling_.force_n = stiffness * (tool_.position - hand.position) + damping * (tool_velocity_ - hand_velocity);
+    coupling_.force_n =
+        stiffness * (tool_.position - hand.position) + damping * (tool_velocity_ - hand_velocity);
 }
 
 void Stepper::linearise(Real dt) noexcept {
@@ -130,7 +136,8 @@ std::uint32_t Stepper::solve_with_contact(Real dt) noexcept {
 bool Stepper::finite() const noexcept {
     // A sum is finite only if every term is. Divided by the smallest step, it covers the velocities too.
     Vec sum = solution_.force_n + solution_.displacement.tool + tool_.position;
-    for (std::uint32_t i = 0; i < model_.free_count; ++i) sum += predicted_[i] + solution_.displacement.nodes[i];
+    for (std::uint32_t i = 0; i < model_.free_count; ++i)
+        sum += predicted_[i] + solution_.displacement.nodes[i];
     return (sum / Real(kSmallestStep_s)).allFinite();
 }
 

@@ -50,7 +50,7 @@ class Stepper {
 
     // Of the step under way.
     Field predicted_, load_;
-    Frame tool_;           ///< predicted
+    Frame tool_;  ///< predicted
     ToolUnknown coupling_;
     Solution solution_;
     std::uint32_t iterations_ = 0;

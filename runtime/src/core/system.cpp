@@ -9,7 +9,8 @@ void System::apply(const Field& u, Field& out) const noexcept {
     for (std::uint32_t i = 0; i < model.free_count; ++i) {
         out[i] = inertia * model.mass_kg[i] * u[i] + dt2 * out[i];
     }
-    for (std::size_t i = model.free_count; i < out.size(); ++i) out[i].setZero();
+    for (std::size_t i = model.free_count; i < out.size(); ++i)
+        out[i].setZero();
 }
 
 void System::project(Unknowns& rows) const noexcept {

@@ -28,7 +28,8 @@ Pose to_scene(const WorkspaceMap& map, const Pose& device) noexcept {
 
 Vec3 to_device(const HapticConfig& config, const Vec3& scene_force_n) noexcept {
     Vec3 force = rotate(inverse(config.workspace.rotation_wxyz), scene_force_n);
-    for (double& component : force) component *= config.force_scale;
+    for (double& component : force)
+        component *= config.force_scale;
     return force;
 }
 
@@ -36,7 +37,8 @@ Vec3 to_device(const HapticConfig& config, const Vec3& scene_force_n) noexcept {
 void limit_norm(double max_force_n, Vec3& force, std::uint32_t& status) noexcept {
     const double norm = std::hypot(force[0], force[1], force[2]);
     if (!(norm > max_force_n) || std::isinf(norm)) return;
-    for (double& component : force) component *= max_force_n / norm;
+    for (double& component : force)
+        component *= max_force_n / norm;
     status |= kLoopSaturated;
 }
 
@@ -51,7 +53,9 @@ bool unit(const QuaternionWxyz& q) {
     return std::abs(norm - 1) <= kUnitTolerance;
 }
 
-Error bad(const std::string& what) { return Error{ErrorCode::invalid_argument, what, "HapticLoop"}; }
+Error bad(const std::string& what) {
+    return Error{ErrorCode::invalid_argument, what, "HapticLoop"};
+}
 
 }  // namespace
 
@@ -60,7 +64,8 @@ HapticLoop::HapticLoop(Device& device, Simulation& simulation, const HapticConfi
 
 Result<HapticLoop> HapticLoop::create(Device& device, Simulation& simulation, const HapticConfig& config) {
     const WorkspaceMap& map = config.workspace;
-    if (!(map.scale > 0 && std::isfinite(map.scale))) return bad("workspace.scale must be finite and above 0");
+    if (!(map.scale > 0 && std::isfinite(map.scale)))
+        return bad("workspace.scale must be finite and above 0");
     if (!unit(map.rotation_wxyz)) return bad("workspace.rotation_wxyz must be a unit quaternion");
     for (const double offset : map.offset_m) {
         if (!std::isfinite(offset)) return bad("workspace.offset_m must be finite");
@@ -91,7 +96,8 @@ Result<RunStatistics> HapticLoop::run(double seconds, double rate_hz,
     if (!(seconds >= 0 && std::isfinite(seconds))) return bad("seconds must be finite and not negative");
     if (!(rate_hz >= kSlowest_hz && rate_hz <= kFastest_hz)) return bad("rate_hz must be 50 to 4000");
     using Clock = std::chrono::steady_clock;
-    const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate_hz));
+    const auto period =
+        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate_hz));
     const auto wanted = static_cast<std::uint64_t>(std::llround(seconds * rate_hz));
     RunStatistics statistics;
     auto start = Clock::now();

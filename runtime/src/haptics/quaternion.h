@@ -17,7 +17,9 @@ inline QuaternionWxyz multiply(const QuaternionWxyz& a, const QuaternionWxyz& b)
             a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
 }
 
-inline QuaternionWxyz inverse(const QuaternionWxyz& unit) noexcept { return {unit[0], -unit[1], -unit[2], -unit[3]}; }
+inline QuaternionWxyz inverse(const QuaternionWxyz& unit) noexcept {
+    return {unit[0], -unit[1], -unit[2], -unit[3]};
+}
 
 inline Vec3 rotate(const QuaternionWxyz& unit, const Vec3& v) noexcept {
     const QuaternionWxyz result = multiply(multiply(unit, {0, v[0], v[1], v[2]}), inverse(unit));

@@ -30,7 +30,8 @@ Progress progress_at(const PressScript& script, double time_s) {
 
 std::vector<DeviceState> press_samples(const PressScript& script) {
     double seconds = 0;
-    for (const double part : {script.wait_s, script.press_s, script.hold_s, script.release_s, script.rest_s}) {
+    for (const double part :
+         {script.wait_s, script.press_s, script.hold_s, script.release_s, script.rest_s}) {
         if (!(part >= 0)) return {};
         seconds += part;
     }

@@ -7,13 +7,17 @@
 namespace knead {
 namespace {
 
-Error bad(const std::string& what) { return Error{ErrorCode::invalid_argument, what, "SimulationConfig"}; }
+Error bad(const std::string& what) {
+    return Error{ErrorCode::invalid_argument, what, "SimulationConfig"};
+}
 
 Error out_of_range(const char* member, double value, const char* range) {
     return bad(std::string(member) + " is " + std::to_string(value) + ", must be " + range);
 }
 
-bool finite_and_not_negative(double value) { return std::isfinite(value) && value >= 0; }
+bool finite_and_not_negative(double value) {
+    return std::isfinite(value) && value >= 0;
+}
 
 }  // namespace
 
@@ -32,15 +36,18 @@ Status check_config(const SimulationConfig& config, const Asset& asset) {
         return out_of_range("max_contact_passes", config.max_contact_passes, "above 0");
     }
     if (!finite_and_not_negative(config.coupling_stiffness_n_per_m)) {
-        return out_of_range("coupling_stiffness_n_per_m", config.coupling_stiffness_n_per_m, "finite and not negative");
+        return out_of_range("coupling_stiffness_n_per_m", config.coupling_stiffness_n_per_m,
+                            "finite and not negative");
     }
     if (!finite_and_not_negative(config.coupling_damping_n_s_per_m)) {
-        return out_of_range("coupling_damping_n_s_per_m", config.coupling_damping_n_s_per_m, "finite and not negative");
+        return out_of_range("coupling_damping_n_s_per_m", config.coupling_damping_n_s_per_m,
+                            "finite and not negative");
     }
     if (config.coupling_damping_n_s_per_m > 0 && config.coupling_stiffness_n_per_m == 0) {
         return bad("coupling_damping_n_s_per_m without coupling_stiffness_n_per_m: there is no coupling");
     }
-    if (config.coupling_stiffness_n_per_m > 0 && !(config.tool_mass_kg > 0 && std::isfinite(config.tool_mass_kg))) {
+    if (config.coupling_stiffness_n_per_m > 0 &&
+        !(config.tool_mass_kg > 0 && std::isfinite(config.tool_mass_kg))) {
         return out_of_range("tool_mass_kg", config.tool_mass_kg, "finite and above 0");
     }
     return Unit{};

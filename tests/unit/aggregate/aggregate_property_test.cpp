@@ -38,7 +38,8 @@ ClusteredObject any_object() {
     return object;
 }
 
-/// Gives every tetrahedron its own nodes along one of the faces of the cube's middle, so that two parts remain.
+/// Gives every tetrahedron its own nodes along one of the faces of the cube's middle, so that two parts
+/// remain.
 void cut_in_two(TetMesh& mesh) {
     const std::size_t nodes = mesh.nodes_m.size();
     std::vector<std::uint32_t> copy(nodes, UINT32_MAX);
@@ -79,8 +80,8 @@ RC_GTEST_PROP(Aggregate_property, Volume_of_each_bin_is_conserved_to_one_tetrahe
     const std::size_t last = options.order == BinOrder::stiff_first ? 0 : bins.size() - 1;
     double grown = 0;  // tetrahedra that all bins but the last may have too many
     for (std::size_t bin = 0; bin < bins.size(); ++bin) {
-        const auto clusters =
-            static_cast<double>(std::count(of_cluster.begin(), of_cluster.end(), static_cast<std::uint32_t>(bin)));
+        const auto clusters = static_cast<double>(
+            std::count(of_cluster.begin(), of_cluster.end(), static_cast<std::uint32_t>(bin)));
         if (bin == last) continue;
         grown += clusters;
         RC_ASSERT(std::abs(after[bin] - before[bin]) <= clusters * largest + kRounding * before[bin]);

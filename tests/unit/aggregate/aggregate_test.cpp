@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
-#include <set>
 
 #include "common/error.h"
 #include "support/kuhn_cube.h"
@@ -22,7 +22,8 @@ ClusteredObject clustered(TetMesh mesh, const std::vector<std::uint32_t>& bin_of
     ClusteredObject object;
     const std::size_t count = mesh.tetrahedra.size();
     const std::uint32_t bins = 1 + *std::max_element(bin_of.begin(), bin_of.end());
-    object.material = {std::vector<double>(count, 1), std::vector<double>(count, .3), std::vector<double>(count, 1), {}};
+    object.material = {
+        std::vector<double>(count, 1), std::vector<double>(count, .3), std::vector<double>(count, 1), {}};
     Clustering& clustering = object.clustering;
     clustering.bin_of_tetrahedron = clustering.cluster_of_tetrahedron = bin_of;
     clustering.cluster_volume_m3.assign(bins, 0);
@@ -81,8 +82,8 @@ TEST(Aggregate, Soft_first_gathers_the_soft_bin_instead) {
 }
 
 TEST(Aggregate, Modified_tetrahedra_are_crossed_and_not_counted) {
-    // Bins 2 and 1 have the same barycentre, the middle. The stiffest takes it; the next one starts there too,
-    // crosses it, and takes one tetrahedron on either side.
+    // Bins 2 and 1 have the same barycentre, the middle. The stiffest takes it; the next one starts there
+    // too, crosses it, and takes one tetrahedron on either side.
     const ClusteredObject object = clustered(strip(9), {0, 0, 0, 1, 2, 1, 0, 0, 0});
     ClusteredObject scattered = clustered(strip(9), {1, 0, 0, 0, 2, 0, 0, 0, 1});
     const AggregateResult result = aggregate(scattered, {.interest = InterestKind::distance});
@@ -92,7 +93,8 @@ TEST(Aggregate, Modified_tetrahedra_are_crossed_and_not_counted) {
 TEST(Aggregate, Equal_volumes_give_exactly_as_many_tetrahedra_back) {
     const TetMesh mesh = kuhn_cube(6);
     std::vector<std::uint32_t> bin_of(mesh.tetrahedra.size());
-    for (std::size_t t = 0; t < bin_of.size(); ++t) bin_of[t] = t % 3 == 0 ? 1 : 0;
+    for (std::size_t t = 0; t < bin_of.size(); ++t)
+        bin_of[t] = t % 3 == 0 ? 1 : 0;
     for (int kind = 0; kind < 5; ++kind) {
         const AggregateResult result =
             aggregate(clustered(mesh, bin_of), {.interest = static_cast<InterestKind>(kind)});
@@ -113,9 +115,11 @@ TEST(Aggregate, A_disconnected_part_is_reached_from_the_nearest_unmodified_tetra
     // after its four: the rest jumps to the tetrahedron of the other strip that is nearest.
     TetMesh mesh = strip(4);
     const TetMesh second = strip(4);
-    for (Point node : second.nodes_m) mesh.nodes_m.push_back({node[0] + 10, node[1], node[2]});
+    for (Point node : second.nodes_m)
+        mesh.nodes_m.push_back({node[0] + 10, node[1], node[2]});
     for (Tetrahedron t : second.tetrahedra) {
-        for (std::uint32_t& node : t) node += 7;
+        for (std::uint32_t& node : t)
+            node += 7;
         mesh.tetrahedra.push_back(t);
     }
     const ClusteredObject object = clustered(mesh, {1, 1, 1, 1, 1, 0, 0, 0});
@@ -126,7 +130,9 @@ TEST(Aggregate, A_disconnected_part_is_reached_from_the_nearest_unmodified_tetra
     EXPECT_EQ(std::count(after.begin() + 4, after.end(), 1U), 1);
     const Point centre = object.clustering.cluster_barycentre_m[1];
     std::size_t nearest = 4;
-    const auto height_from_centre = [&](std::size_t t) { return std::abs(barycentre_m(mesh, t)[2] - centre[2]); };
+    const auto height_from_centre = [&](std::size_t t) {
+        return std::abs(barycentre_m(mesh, t)[2] - centre[2]);
+    };
     for (std::size_t t = 5; t < 8; ++t)
         if (height_from_centre(t) < height_from_centre(nearest)) nearest = t;
     EXPECT_EQ(after[nearest], 1U);
@@ -134,17 +140,13 @@ TEST(Aggregate, A_disconnected_part_is_reached_from_the_nearest_unmodified_tetra
 
 TEST(Aggregate, A_barycentre_outside_the_object_starts_at_the_nearest_tetrahedron) {
     // Stiff at both ends of a U: its barycentre lies in the gap between the legs.
-    TetMesh mesh = kuhn_box(3, 1, 3, {3, 1, 3});
+    const TetMesh mesh = kuhn_box(3, 1, 3, {3, 1, 3});
     TetMesh u;
     std::vector<std::uint32_t> bin_of;
-    for (const Tetrahedron& t : mesh.tetrahedra) {
-        u.tetrahedra.push_back(t);
-        TetMesh one = mesh;
-        const Point centre = barycentre_m(mesh, static_cast<std::size_t>(&t - mesh.tetrahedra.data()));
-        if (centre[0] > 1 && centre[0] < 2 && centre[2] > 1) {
-            u.tetrahedra.pop_back();
-            continue;
-        }
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+        const Point centre = barycentre_m(mesh, t);
+        if (centre[0] > 1 && centre[0] < 2 && centre[2] > 1) continue;  // the gap
+        u.tetrahedra.push_back(mesh.tetrahedra[t]);
         bin_of.push_back(centre[2] > 2 ? 1 : 0);
     }
     u.nodes_m = mesh.nodes_m;
@@ -152,12 +154,25 @@ TEST(Aggregate, A_barycentre_outside_the_object_starts_at_the_nearest_tetrahedro
     EXPECT_NEAR(object.clustering.cluster_barycentre_m[1][0], 1.5, 1e-9);  // in the gap
     const AggregateResult result = aggregate(object, {.interest = InterestKind::distance});
     EXPECT_NEAR(result.bins[1].after_m3, 2.0, 1e-9);
+    std::size_t nearest = 0;
+    std::size_t farthest = 0;
+    const auto distance = [&](std::size_t t) {
+        const Point centre = barycentre_m(u, t);
+        return std::hypot(centre[0] - 1.5, centre[1] - 0.5, centre[2] - 2.5);
+    };
+    for (std::size_t t = 0; t < u.tetrahedra.size(); ++t) {
+        if (distance(t) < distance(nearest) - 1e-9) nearest = t;
+        if (distance(t) > distance(farthest) + 1e-9) farthest = t;
+    }
+    EXPECT_EQ(result.material.bin_of_tetrahedron[nearest], 1U);
+    EXPECT_EQ(result.material.bin_of_tetrahedron[farthest], 0U);
+    EXPECT_EQ(result.material.bin_of_tetrahedron[0], 0U);
 }
 
 TEST(Aggregate, Bad_weights_are_bad_usage) {
     const ClusteredObject object = clustered(kuhn_cube(1), {0, 0, 0, 1, 1, 1});
-    for (const double weight : {-0.1, std::numeric_limits<double>::quiet_NaN(),
-                                std::numeric_limits<double>::infinity()})
+    for (const double weight :
+         {-0.1, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
         EXPECT_THROW((void)aggregate(object, {.direction_weight = weight}), ToolError);
 }
 

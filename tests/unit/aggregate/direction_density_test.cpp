@@ -12,8 +12,8 @@ namespace {
 
 using tools::DirectionDensity;
 
-/// A cell of the sphere is 7.5 degrees wide; at 30 degrees the weight changes by 1.8 % per degree, and both the
-/// volume and the place asked for are moved to the middle of their cells.
+/// A cell of the sphere is 7.5 degrees wide; at 30 degrees the weight changes by 1.8 % per degree, and both
+/// the volume and the place asked for are moved to the middle of their cells.
 constexpr double kCellError = 0.15;
 
 TEST(Direction_density, Is_largest_towards_the_volume_halves_at_30_degrees_and_ignores_the_distance) {

@@ -20,7 +20,8 @@ struct Bar {
     TetMesh mesh = kuhn_box(8, 2, 2, {8, 2, 2});
     ClusterShape cluster{{4, 1, 1}, 32, {}};
     Bar() {
-        for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) cluster.tetrahedra.push_back(t);
+        for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
+            cluster.tetrahedra.push_back(t);
     }
     Interest interest(InterestKind kind, double weight = 0.25) const { return {kind, weight, mesh, cluster}; }
 };

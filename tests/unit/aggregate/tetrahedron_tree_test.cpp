@@ -14,14 +14,18 @@ namespace {
 
 using tools::TetrahedronTree;
 
-double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double distance(const Point& a, const Point& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
 
-/// Volume of the tetrahedron against the sum of the four that a point makes with its faces: equal when inside.
+/// Volume of the tetrahedron against the sum of the four that a point makes with its faces: equal when
+/// inside.
 bool is_inside(const TetMesh& mesh, std::uint32_t t, const Point& point) {
     double sum = 0;
     for (int i = 0; i < 4; ++i) {
         std::array<Point, 4> part{};
-        for (int j = 0; j < 4; ++j) part[j] = i == j ? point : mesh.nodes_m[mesh.tetrahedra[t][j]];
+        for (int j = 0; j < 4; ++j)
+            part[j] = i == j ? point : mesh.nodes_m[mesh.tetrahedra[t][j]];
         sum += std::abs(signed_volume_m3(part[0], part[1], part[2], part[3]));
     }
     return sum <= signed_volume_m3(mesh, t) * (1 + 1e-9);

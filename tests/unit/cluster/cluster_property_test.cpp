@@ -25,7 +25,8 @@ std::vector<Point> any_points() {
     std::mt19937_64 engine(*rc::gen::arbitrary<std::uint64_t>());
     std::vector<Point> points(static_cast<std::size_t>(count));
     for (Point& point : points)
-        for (double& coordinate : point) coordinate = static_cast<double>(engine() >> 11U) * 0x1.0p-53;
+        for (double& coordinate : point)
+            coordinate = static_cast<double>(engine() >> 11U) * 0x1.0p-53;
     return points;
 }
 
@@ -35,7 +36,8 @@ RC_GTEST_PROP(Kmeans_property, Inertia_never_rises, ()) {
     const KmeansResult result = kmeans(points, {.clusters = clusters, .restarts = 2});
     const auto& history = result.inertia_history_m2;
     const double slack = kRounding * static_cast<double>(points.size());
-    for (std::size_t i = 1; i < history.size(); ++i) RC_ASSERT(history[i] <= history[i - 1] + slack);
+    for (std::size_t i = 1; i < history.size(); ++i)
+        RC_ASSERT(history[i] <= history[i - 1] + slack);
     RC_ASSERT(result.inertia_m2 <= history.back() + slack);
 }
 
@@ -45,7 +47,8 @@ RC_GTEST_PROP(Kmeans_property, Order_of_the_points_does_not_matter, ()) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::shuffle(order.begin(), order.end(), std::mt19937_64(*rc::gen::arbitrary<std::uint64_t>()));
     std::vector<Point> shuffled;
-    for (const std::size_t i : order) shuffled.push_back(points[i]);
+    for (const std::size_t i : order)
+        shuffled.push_back(points[i]);
     const KmeansOptions options{.clusters = static_cast<std::uint32_t>(*rc::gen::inRange(1, 8))};
     const KmeansResult a = kmeans(points, options);
     const KmeansResult b = kmeans(shuffled, options);
@@ -56,9 +59,11 @@ RC_GTEST_PROP(Kmeans_property, Order_of_the_points_does_not_matter, ()) {
 
 RC_GTEST_PROP(Kmeans_property, Every_cluster_is_used, ()) {
     const auto points = any_points();
-    const KmeansResult result = kmeans(points, {.clusters = static_cast<std::uint32_t>(*rc::gen::inRange(1, 40))});
+    const KmeansResult result =
+        kmeans(points, {.clusters = static_cast<std::uint32_t>(*rc::gen::inRange(1, 40))});
     std::vector<bool> used(result.centres_m.size(), false);
-    for (const std::uint32_t cluster : result.cluster_of_point) used.at(cluster) = true;
+    for (const std::uint32_t cluster : result.cluster_of_point)
+        used.at(cluster) = true;
     RC_ASSERT(std::all_of(used.begin(), used.end(), [](bool value) { return value; }));
 }
 

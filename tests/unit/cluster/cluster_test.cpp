@@ -66,7 +66,8 @@ TEST(Cluster, Bins_and_clusters_agree_with_each_other_and_with_the_volumes) {
 
 TEST(Cluster, Clusters_are_capped_by_the_tetrahedra_of_the_bin) {
     TetMesh mesh = kuhn_cube(1);
-    const Material material{{1e3, 1e3, 1e3, 1e3, 9e3, 9e3}, std::vector<double>(6, .3), std::vector<double>(6, 1), {}};
+    const Material material{
+        {1e3, 1e3, 1e3, 1e3, 9e3, 9e3}, std::vector<double>(6, .3), std::vector<double>(6, 1), {}};
     jitter(mesh, 0.1, 0.05, 1);
     EXPECT_THAT(cluster_object(mesh, material, {.bins = 2, .clusters = 4}).clustering.bin_of_cluster,
                 ElementsAre(0, 0, 0, 0, 1, 1));
@@ -74,8 +75,8 @@ TEST(Cluster, Clusters_are_capped_by_the_tetrahedra_of_the_bin) {
 
 TEST(Cluster, One_value_and_several_bins_gives_one_bin_with_exactly_that_value) {
     const TetMesh mesh = kuhn_cube(3);
-    const Material material{std::vector<double>(162, 22222.2), std::vector<double>(162, .3),
-                            std::vector<double>(162, 1000), {}};
+    const Material material{
+        std::vector<double>(162, 22222.2), std::vector<double>(162, .3), std::vector<double>(162, 1000), {}};
     const Clustering clustering = cluster_object(mesh, material, {.bins = 4}).clustering;
     EXPECT_THAT(clustering.bin_youngs_modulus_pa, ElementsAre(22222.2));
 }

@@ -21,7 +21,8 @@ std::vector<Point> random_points(std::size_t count, std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     std::vector<Point> points(count);
     for (Point& point : points)
-        for (double& coordinate : point) coordinate = 5 + static_cast<double>(engine() >> 11U) * 0x1.0p-53;
+        for (double& coordinate : point)
+            coordinate = 5 + static_cast<double>(engine() >> 11U) * 0x1.0p-53;
     return points;
 }
 
@@ -34,10 +35,12 @@ double inertia_of(const std::vector<Point>& points, const std::vector<std::uint3
         for (std::size_t i = 0; i < points.size(); ++i)
             if (labels[i] == cluster) {
                 ++count;
-                for (int axis = 0; axis < 3; ++axis) mean[axis] += points[i][axis];
+                for (int axis = 0; axis < 3; ++axis)
+                    mean[axis] += points[i][axis];
             }
         if (count == 0) continue;
-        for (double& coordinate : mean) coordinate /= count;
+        for (double& coordinate : mean)
+            coordinate /= count;
         for (std::size_t i = 0; i < points.size(); ++i)
             if (labels[i] == cluster)
                 for (int axis = 0; axis < 3; ++axis)
@@ -52,7 +55,8 @@ double best_inertia(const std::vector<Point>& points, std::uint32_t clusters) {
     while (true) {
         best = std::min(best, inertia_of(points, labels));
         std::size_t digit = 0;
-        while (digit < labels.size() && ++labels[digit] == clusters) labels[digit++] = 0;
+        while (digit < labels.size() && ++labels[digit] == clusters)
+            labels[digit++] = 0;
         if (digit == labels.size()) return best;
     }
 }
@@ -93,7 +97,8 @@ TEST(Kmeans, Every_point_is_with_its_closest_centre_and_every_centre_is_the_mean
         const Point& own = result.centres_m[result.cluster_of_point[i]];
         for (const Point& other : result.centres_m)
             EXPECT_LE(squared_distance(points[i], own), squared_distance(points[i], other) + kRounding);
-        for (int axis = 0; axis < 3; ++axis) sum[result.cluster_of_point[i]][axis] += points[i][axis];
+        for (int axis = 0; axis < 3; ++axis)
+            sum[result.cluster_of_point[i]][axis] += points[i][axis];
         ++count[result.cluster_of_point[i]];
     }
     for (std::size_t c = 0; c < 7; ++c)
@@ -150,11 +155,13 @@ TEST(Point_tree, Assigns_like_a_plain_loop_over_points_and_centres) {
     for (const std::size_t count : {1U, 2U, 9U, 60U}) {
         auto centres = random_points(count, 100 + count);
         for (Point& centre : centres)
-            for (int axis = 0; axis < 3; ++axis) centre[axis] -= tree.origin_m()[axis];
+            for (int axis = 0; axis < 3; ++axis)
+                centre[axis] -= tree.origin_m()[axis];
         std::vector<std::uint64_t> counts(count, 0);
         double inertia = 0;
         for (Point point : points) {
-            for (int axis = 0; axis < 3; ++axis) point[axis] -= tree.origin_m()[axis];
+            for (int axis = 0; axis < 3; ++axis)
+                point[axis] -= tree.origin_m()[axis];
             std::size_t best = 0;
             for (std::size_t c = 1; c < count; ++c)
                 if (squared_distance(point, centres[c]) < squared_distance(point, centres[best])) best = c;

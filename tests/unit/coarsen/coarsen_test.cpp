@@ -83,13 +83,20 @@ TEST(Coarsen, Dominant_tie_goes_to_the_stiffer_even_when_rounding_hides_it) {
     EXPECT_THAT(clear.material.bin_of_tetrahedron, ElementsAre(0));
 }
 
+TEST(Coarsen, Dominant_tie_does_not_depend_on_the_order_of_the_tetrahedra) {
+    const MaterialObject stiff_first{row(2), {{9e3, 1e3}, {.3, .3}, {1000, 1000}, {1, 0}}};
+    const CoarsenResult result = coarsen(stiff_first, row(1), shares(2, {{.5, .5}}), CoarsenRule::dominant);
+    EXPECT_THAT(result.material.bin_of_tetrahedron, ElementsAre(1));
+}
+
 TEST(Coarsen, Volume_average_is_over_the_covered_volume_and_has_no_bins) {
     const CoarsenResult result =
         coarsen(fine_four(), row(1), shares(4, {{.1, 0, .2, .3}}), CoarsenRule::volume_average);
     const double expected = (.1 * 1e3 + .2 * 5e3 + .3 * 9e3) / .6;
     EXPECT_NEAR(result.material.youngs_modulus_pa[0], expected, expected * kRounding);
     EXPECT_NEAR(result.material.poissons_ratio[0], (.1 * .2 + .2 * .3 + .3 * .4) / .6, kRounding);
-    EXPECT_NEAR(result.material.density_kg_per_m3[0], (.1 * 900 + .2 * 1000 + .3 * 1200) / .6, 1200 * kRounding);
+    EXPECT_NEAR(result.material.density_kg_per_m3[0], (.1 * 900 + .2 * 1000 + .3 * 1200) / .6,
+                1200 * kRounding);
     EXPECT_THAT(result.material.bin_of_tetrahedron, IsEmpty());
 }
 

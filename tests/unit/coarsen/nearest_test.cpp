@@ -19,12 +19,14 @@ TEST(Nearest_barycentre, Agrees_with_a_look_at_every_tetrahedron) {
     std::mt19937_64 engine(3);
     for (int round = 0; round < 300; ++round) {
         Point point{};
-        for (double& coordinate : point) coordinate = 0.3 * static_cast<double>(engine() >> 11U) * 0x1.0p-53 - 0.1;
+        for (double& coordinate : point)
+            coordinate = 0.3 * static_cast<double>(engine() >> 11U) * 0x1.0p-53 - 0.1;
         std::uint32_t expected = 0;
         double shortest = std::numeric_limits<double>::infinity();
         for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
             const Point centre = barycentre_m(mesh, t);
-            const double distance = std::hypot(centre[0] - point[0], centre[1] - point[1], centre[2] - point[2]);
+            const double distance =
+                std::hypot(centre[0] - point[0], centre[1] - point[1], centre[2] - point[2]);
             if (distance < shortest) {
                 shortest = distance;
                 expected = t;

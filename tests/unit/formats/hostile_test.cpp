@@ -26,8 +26,9 @@ class Hostile : public ::testing::Test {
     static void set_attribute(hid_t object, const char* name, hid_t type, const std::vector<hsize_t>& extents,
                               const void* data) {
         if (H5Aexists(object, name) > 0) H5Adelete(object, name);
-        const hid_t space = extents.empty() ? H5Screate(H5S_SCALAR)
-                                            : H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr);
+        const hid_t space = extents.empty()
+                                ? H5Screate(H5S_SCALAR)
+                                : H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr);
         const hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
         ASSERT_GE(attribute, 0);
         if (data != nullptr) {
@@ -44,9 +45,9 @@ class Hostile : public ::testing::Test {
     }
 
     /// Replaces a dataset by an empty one of another make.
-    static hid_t replace_dataset(hid_t file, const char* path, hid_t type, const std::vector<hsize_t>& extents,
-                                 hid_t creation = H5P_DEFAULT) {
-        H5Ldelete(file, path, H5P_DEFAULT);
+    static hid_t replace_dataset(hid_t file, const char* path, hid_t type,
+                                 const std::vector<hsize_t>& extents, hid_t creation = H5P_DEFAULT) {
+        if (H5Lexists(file, path, H5P_DEFAULT) > 0) H5Ldelete(file, path, H5P_DEFAULT);
         const hid_t space = H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr);
         const hid_t dataset = H5Dcreate2(file, path, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
         EXPECT_GE(dataset, 0);
@@ -205,7 +206,8 @@ TEST_F(Hostile, A_small_file_that_declares_huge_extents_gives_too_large) {
         const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
         const std::array<hsize_t, 2> chunk{1024, 3};
         H5Pset_chunk(creation, 2, chunk.data());
-        H5Dclose(replace_dataset(file, "/knead/mesh/nodes_m", H5T_IEEE_F64LE, {hsize_t{1} << 40, 3}, creation));
+        H5Dclose(
+            replace_dataset(file, "/knead/mesh/nodes_m", H5T_IEEE_F64LE, {hsize_t{1} << 40, 3}, creation));
         H5Pclose(creation);
     });
     expect(ErrorCode::too_large, "/knead/mesh/nodes_m");
@@ -219,7 +221,7 @@ TEST_F(Hostile, Extents_that_are_not_stored_give_too_large) {
         H5Dclose(replace_dataset(file, "/knead/mesh/nodes_m", H5T_IEEE_F64LE, {1'000'000, 3}, creation));
         H5Pclose(creation);
     });
-    expect(ErrorCode::too_large, "holds only 0 bytes");
+    expect(ErrorCode::too_large, "too small to hold");
 }
 
 TEST_F(Hostile, A_mesh_beyond_the_limits_gives_too_large) {
@@ -255,7 +257,8 @@ TEST_F(Hostile, An_external_link_gives_forbidden) {
     std::filesystem::copy_file(file_, other);
     bend([&](hid_t file) {
         H5Ldelete(file, "/knead/mesh/nodes_m", H5P_DEFAULT);
-        H5Lcreate_external(other.c_str(), "/knead/mesh/nodes_m", file, "/knead/mesh/nodes_m", H5P_DEFAULT, H5P_DEFAULT);
+        H5Lcreate_external(other.c_str(), "/knead/mesh/nodes_m", file, "/knead/mesh/nodes_m", H5P_DEFAULT,
+                           H5P_DEFAULT);
     });
     expect(ErrorCode::forbidden, "soft or external link");
 }

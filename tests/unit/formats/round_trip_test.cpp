@@ -16,17 +16,19 @@ TetMesh any_mesh() {
     TetMesh mesh = kuhn_cube(*rc::gen::inRange<std::uint32_t>(1, 4), *rc::gen::element(0.01, 1.0, 300.0));
     const double cell = mesh.nodes_m[1][0];
     for (Point& p : mesh.nodes_m)
-        for (double& x : p) x += cell * 0.01 * (*rc::gen::inRange(-1000, 1000) / 1000.0);
+        for (double& x : p)
+            x += cell * 0.01 * (*rc::gen::inRange(-1000, 1000) / 1000.0);
     const std::size_t count = mesh.tetrahedra.size();
     const auto regions = *rc::gen::inRange<std::uint32_t>(0, 4);
-    for (std::uint32_t i = 0; i < regions; ++i) mesh.regions.names.push_back("region " + std::to_string(i));
+    for (std::uint32_t i = 0; i < regions; ++i)
+        mesh.regions.names.push_back("region " + std::to_string(i));
     if (regions > 0)
         mesh.regions.region_of_tetrahedron = *rc::gen::container<std::vector<std::uint32_t>>(
             count, rc::gen::inRange<std::uint32_t>(0, regions));
     const auto arrays = *rc::gen::inRange(0, 12);
     for (int i = 0; i < arrays; ++i)
-        mesh.cell_arrays.push_back({"array/" + std::to_string(i),
-                                    *rc::gen::container<std::vector<double>>(count, rc::gen::arbitrary<double>())});
+        mesh.cell_arrays.push_back({"array/" + std::to_string(i), *rc::gen::container<std::vector<double>>(
+                                                                      count, rc::gen::arbitrary<double>())});
     return mesh;
 }
 
@@ -47,7 +49,8 @@ Material any_material(std::size_t count) {
 Clustering any_clustering(std::size_t count) {
     Clustering c;
     const auto bins = *rc::gen::inRange<std::uint32_t>(1, 5);
-    for (std::uint32_t i = 0; i < count; ++i) c.bin_of_tetrahedron.push_back(i % bins);
+    for (std::uint32_t i = 0; i < count; ++i)
+        c.bin_of_tetrahedron.push_back(i % bins);
     c.cluster_of_tetrahedron = c.bin_of_tetrahedron;
     for (std::uint32_t bin = 0; bin < bins; ++bin) {
         c.bin_youngs_modulus_pa.push_back(1000.0 * bin + *rc::gen::inRange(1, 999));
@@ -102,15 +105,18 @@ Asset any_asset() {
     asset.tetrahedra = mesh.tetrahedra;
     asset.free_node_count = static_cast<std::uint32_t>(mesh.nodes_m.size());
     const auto palette = *rc::gen::element<std::uint32_t>(1, 2, 256, 257, 65536, 65537);
-    for (std::uint32_t i = 0; i < palette; ++i) asset.palette.push_back({1.0 + i, 0.3, 1000});
+    for (std::uint32_t i = 0; i < palette; ++i)
+        asset.palette.push_back({1.0 + i, 0.3, 1000});
     for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i)
         asset.palette_index.push_back(i == 0 ? palette - 1 : *rc::gen::inRange<std::uint32_t>(0, palette));
     const int tools = *rc::gen::inRange(0, 12);
-    for (int i = 0; i < tools; ++i) asset.tools.push_back(any_tool(asset.free_node_count, i));
+    for (int i = 0; i < tools; ++i)
+        asset.tools.push_back(any_tool(asset.free_node_count, i));
     if (*rc::gen::arbitrary<bool>()) asset.gravity_m_per_s2 = {0, -9.81, 0.1};
     if (*rc::gen::arbitrary<bool>()) asset.damping_per_s = 0.1;
     if (*rc::gen::arbitrary<bool>()) asset.surface.triangles = {{0, 1, 2}, {1, 2, 3}};
-    if (*rc::gen::arbitrary<bool>()) asset.requests = {{"/knead/asset", "", 0}, {"/knead/asset/tools", "tool", 4}};
+    if (*rc::gen::arbitrary<bool>())
+        asset.requests = {{"/knead/asset", "", 0}, {"/knead/asset/tools", "tool", 4}};
     return asset;
 }
 
@@ -212,7 +218,8 @@ TEST(Asset_file, Of_1296_tetrahedra_stays_far_below_64_kB) {
     asset.tools.resize(1);
     asset.surface.triangles.clear();
     asset.tools[0].nodes.clear();
-    for (std::uint32_t i = 294; i < 343; ++i) asset.tools[0].nodes.push_back(i);
+    for (std::uint32_t i = 294; i < 343; ++i)
+        asset.tools[0].nodes.push_back(i);
     ASSERT_EQ(asset.tetrahedra.size(), 1296U);
     ASSERT_TRUE(write_asset(file, asset, sample_provenance()).ok());
     EXPECT_LT(std::filesystem::file_size(file), kMostBytes);

@@ -9,7 +9,8 @@ namespace knead::test {
 inline bool same(const TetMesh& a, const TetMesh& b) {
     if (a.cell_arrays.size() != b.cell_arrays.size()) return false;
     for (std::size_t i = 0; i < a.cell_arrays.size(); ++i)
-        if (a.cell_arrays[i].name != b.cell_arrays[i].name || a.cell_arrays[i].values != b.cell_arrays[i].values)
+        if (a.cell_arrays[i].name != b.cell_arrays[i].name ||
+            a.cell_arrays[i].values != b.cell_arrays[i].values)
             return false;
     return a.nodes_m == b.nodes_m && a.tetrahedra == b.tetrahedra && a.regions.names == b.regions.names &&
            a.regions.region_of_tetrahedron == b.regions.region_of_tetrahedron;
@@ -25,15 +26,17 @@ inline bool same(const MaterialObject& a, const MaterialObject& b) {
 inline bool same(const ClusteredObject& a, const ClusteredObject& b) {
     const Clustering &c = a.clustering, &d = b.clustering;
     return same(MaterialObject{a.mesh, a.material}, MaterialObject{b.mesh, b.material}) &&
-           c.bin_of_tetrahedron == d.bin_of_tetrahedron && c.cluster_of_tetrahedron == d.cluster_of_tetrahedron &&
-           c.bin_youngs_modulus_pa == d.bin_youngs_modulus_pa && c.bin_poissons_ratio == d.bin_poissons_ratio &&
+           c.bin_of_tetrahedron == d.bin_of_tetrahedron &&
+           c.cluster_of_tetrahedron == d.cluster_of_tetrahedron &&
+           c.bin_youngs_modulus_pa == d.bin_youngs_modulus_pa &&
+           c.bin_poissons_ratio == d.bin_poissons_ratio &&
            c.bin_density_kg_per_m3 == d.bin_density_kg_per_m3 && c.bin_of_cluster == d.bin_of_cluster &&
            c.cluster_barycentre_m == d.cluster_barycentre_m && c.cluster_volume_m3 == d.cluster_volume_m3;
 }
 
 inline bool same(const OverlapMatrix& a, const OverlapMatrix& b) {
-    return a.coarse_count == b.coarse_count && a.fine_count == b.fine_count && a.row_offsets == b.row_offsets &&
-           a.columns == b.columns && a.volumes_m3 == b.volumes_m3;
+    return a.coarse_count == b.coarse_count && a.fine_count == b.fine_count &&
+           a.row_offsets == b.row_offsets && a.columns == b.columns && a.volumes_m3 == b.volumes_m3;
 }
 
 inline bool same(const ToolSet& a, const ToolSet& b) {
@@ -54,7 +57,8 @@ inline bool same(const Asset& a, const Asset& b) {
     for (std::size_t i = 0; i < a.tools.size(); ++i)
         if (!same(a.tools[i], b.tools[i])) return false;
     for (std::size_t i = 0; i < a.requests.size(); ++i)
-        if (a.requests[i].group != b.requests[i].group || a.requests[i].scene_key != b.requests[i].scene_key ||
+        if (a.requests[i].group != b.requests[i].group ||
+            a.requests[i].scene_key != b.requests[i].scene_key ||
             a.requests[i].scene_line != b.requests[i].scene_line)
             return false;
     return a.name == b.name && a.level == b.level && a.nodes_m == b.nodes_m &&
@@ -64,8 +68,8 @@ inline bool same(const Asset& a, const Asset& b) {
 }
 
 inline bool same(const Provenance& a, const Provenance& b) {
-    return a.tool == b.tool && a.tool_version == b.tool_version && a.arguments == b.arguments && a.seed == b.seed &&
-           a.inputs == b.inputs;
+    return a.tool == b.tool && a.tool_version == b.tool_version && a.arguments == b.arguments &&
+           a.seed == b.seed && a.inputs == b.inputs;
 }
 
 }  // namespace knead::test

@@ -89,7 +89,9 @@ inline ClusteredObject sample_clustering(std::uint32_t n = 1) {
     return {object.mesh, object.material, c};
 }
 
-inline OverlapMatrix sample_overlap() { return {2, 3, {0, 1, 3}, {1, 0, 2}, {1e-9, 2e-9, 3e-9}}; }
+inline OverlapMatrix sample_overlap() {
+    return {2, 3, {0, 1, 3}, {1, 0, 2}, {1e-9, 2e-9, 3e-9}};
+}
 
 inline Asset sample_asset(std::uint32_t n = 1) {
     const TetMesh mesh = kuhn_cube(n);
@@ -102,18 +104,23 @@ inline Asset sample_asset(std::uint32_t n = 1) {
     asset.palette = {{22000, 0.3, 1000}, {2200, 0.45, 900}};
     for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i)
         asset.palette_index.push_back(static_cast<std::uint32_t>(i % 2));
-    ToolSet press{"press", ToolShape::plate, ToolContact::bonded};
+    ToolSet press;
+    press.name = "press";
     press.half_extents_m = {0.06, 0.06};
     press.rest_position_m = {0.05, 0.05, 0.1};
     press.nodes = {0, 2, 5};
-    ToolSet ball{"ball", ToolShape::sphere, ToolContact::frictionless};
+    ToolSet ball;
+    ball.name = "ball";
+    ball.shape = ToolShape::sphere;
+    ball.contact = ToolContact::frictionless;
     ball.radius_m = 0.01;
     ball.rest_orientation_wxyz = {0, 1, 0, 0};
     asset.tools = {press, ball};
     asset.gravity_m_per_s2 = {0, 0, -9.81};
     asset.damping_per_s = 2.5;
     asset.surface.triangles = {{0, 1, 3}, {0, 3, 2}};
-    asset.requests = {{"/knead/asset/tools/000000", "tool[0]", 12}, {"/knead/asset/gravity", "app.gravity", 30}};
+    asset.requests = {{"/knead/asset/tools/000000", "tool[0]", 12},
+                      {"/knead/asset/gravity", "app.gravity", 30}};
     return asset;
 }
 

@@ -60,7 +60,8 @@ TEST(Value_csv, Not_a_number_reaches_the_check_of_the_values) {
 }
 
 TEST(Region_csv, Names_may_hold_commas_and_quotes_are_taken_off) {
-    const auto regions = parse_region_csv("region,E,nu,density\nfat, left,1000,0.3,900\n\"lean\",2e3,0.4,1100\n");
+    const auto regions =
+        parse_region_csv("region,E,nu,density\nfat, left,1000,0.3,900\n\"lean\",2e3,0.4,1100\n");
     ASSERT_EQ(regions.size(), 2U);
     EXPECT_EQ(regions[0].region, "fat, left");
     EXPECT_EQ(regions[0].youngs_modulus_pa, 1000);
@@ -70,7 +71,8 @@ TEST(Region_csv, Names_may_hold_commas_and_quotes_are_taken_off) {
 }
 
 TEST(Region_csv, Errors_name_the_line) {
-    EXPECT_THAT(complaint([] { return parse_region_csv("fat,1,0.3,900\nlean,1,0.3\n"); }), HasSubstr("line 2"));
+    EXPECT_THAT(complaint([] { return parse_region_csv("fat,1,0.3,900\nlean,1,0.3\n"); }),
+                HasSubstr("line 2"));
     EXPECT_THAT(complaint([] { return parse_region_csv("fat,1,0.3,heavy\nlean,1,0.3,1\n"); }),
                 HasSubstr("line 1: \"heavy\""));
 }

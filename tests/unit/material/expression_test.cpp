@@ -28,7 +28,8 @@ TEST(Expression, A_constant_holds_everywhere) {
 }
 
 TEST(Expression, What_is_not_an_expression_of_x_y_z_is_bad_usage) {
-    for (const char* text : {"", "  ", "2*", "w + 1", "sin(", "1, 2", "x = 3", "y += 2", "\"text\"", "1 2", "x y"}) {
+    for (const char* text :
+         {"", "  ", "2*", "w + 1", "sin(", "1, 2", "x = 3", "y += 2", "\"text\"", "1 2", "x y"}) {
         try {
             (void)evaluate_expression(kuhn_cube(1), text);
             ADD_FAILURE() << '"' << text << "\" was accepted";

@@ -35,7 +35,8 @@ TetMesh marbled() {
     return mesh;
 }
 
-const std::vector<RegionValues> kMeat{{"bone", 3e6, 0.2, 1900}, {"fat", 1e3, 0.49, 900}, {"lean", 2e4, 0.45, 1060}};
+const std::vector<RegionValues> kMeat{
+    {"bone", 3e6, 0.2, 1900}, {"fat", 1e3, 0.49, 900}, {"lean", 2e4, 0.45, 1060}};
 
 TEST(Regions, Every_tetrahedron_gets_its_regions_values_in_any_order) {
     const Material material = material_of_regions(marbled(), kMeat);
@@ -56,8 +57,10 @@ TEST(Regions, Missing_and_double_ones_are_refused) {
                 HasSubstr("2 of 3 regions have no values: lean, bone"));
     auto twice = kMeat;
     twice.push_back(kMeat[0]);
-    EXPECT_THAT(bad_input([&] { return material_of_regions(marbled(), twice); }), HasSubstr("\"bone\" is given twice"));
-    EXPECT_THAT(bad_input([&] { return material_of_regions(kuhn_cube(1), kMeat); }), HasSubstr("has no regions"));
+    EXPECT_THAT(bad_input([&] { return material_of_regions(marbled(), twice); }),
+                HasSubstr("\"bone\" is given twice"));
+    EXPECT_THAT(bad_input([&] { return material_of_regions(kuhn_cube(1), kMeat); }),
+                HasSubstr("has no regions"));
 }
 
 TEST(Array, Gives_the_moduli_and_defaults_fill_the_rest) {
@@ -85,9 +88,13 @@ TEST(Own_arrays, Poissons_ratio_and_density_are_taken_where_they_are) {
 }
 
 TEST(Table, Rows_must_be_exactly_as_many_as_tetrahedra) {
-    EXPECT_THAT(bad_input([] { return material_of_table(marbled(), {{1, 2, 3, 4, 5}, {}, {}}, {}); }),
+    EXPECT_THAT(bad_input([] {
+                    return material_of_table(marbled(), {{1, 2, 3, 4, 5}, {}, {}}, {});
+                }),
                 HasSubstr("5 rows for 6 tetrahedra"));
-    EXPECT_THAT(bad_input([] { return material_of_table(marbled(), {{1, 2, 3, 4, 5, 6, 7}, {}, {}}, {}); }),
+    EXPECT_THAT(bad_input([] {
+                    return material_of_table(marbled(), {{1, 2, 3, 4, 5, 6, 7}, {}, {}}, {});
+                }),
                 HasSubstr("7 rows for 6 tetrahedra"));
     EXPECT_EQ(material_of_table(marbled(), {{1, 2, 3, 4, 5, 6}, {}, {}}, {}).youngs_modulus_pa[5], 6);
 }

@@ -20,7 +20,8 @@ constexpr double kVolumeTolerance = 1e-12;
 double volume(const TetMesh& mesh, const Tetrahedron& t) {
     std::array<std::array<double, 3>, 3> m{};
     for (int row = 0; row < 3; ++row)
-        for (int axis = 0; axis < 3; ++axis) m[row][axis] = mesh.nodes_m[t[row + 1]][axis] - mesh.nodes_m[t[0]][axis];
+        for (int axis = 0; axis < 3; ++axis)
+            m[row][axis] = mesh.nodes_m[t[row + 1]][axis] - mesh.nodes_m[t[0]][axis];
     return (m[0][0] * m[1][1] * m[2][2] + m[0][1] * m[1][2] * m[2][0] + m[0][2] * m[1][0] * m[2][1] -
             m[0][2] * m[1][1] * m[2][0] - m[0][1] * m[1][0] * m[2][2] - m[0][0] * m[1][2] * m[2][1]) /
            6;
@@ -54,7 +55,8 @@ TEST(Cubes, Are_a_ball_whose_surface_is_a_sphere_by_Eulers_formula) {
         Tetrahedron t = nodes;
         std::sort(t.begin(), t.end());
         for (int i = 0; i < 4; ++i)
-            for (int j = i + 1; j < 4; ++j) edges.insert({t[i], t[j]});
+            for (int j = i + 1; j < 4; ++j)
+                edges.insert({t[i], t[j]});
         for (int skip = 0; skip < 4; ++skip) {
             std::array<std::uint32_t, 3> face{};
             for (int i = 0, k = 0; i < 4; ++i)
@@ -63,7 +65,9 @@ TEST(Cubes, Are_a_ball_whose_surface_is_a_sphere_by_Eulers_formula) {
         }
     }
     const auto count = [](std::size_t n) { return static_cast<long>(n); };
-    EXPECT_EQ(count(mesh.nodes_m.size()) - count(edges.size()) + count(faces.size()) - count(mesh.tetrahedra.size()), 1);
+    EXPECT_EQ(count(mesh.nodes_m.size()) - count(edges.size()) + count(faces.size()) -
+                  count(mesh.tetrahedra.size()),
+              1);
     long outside = 0;
     for (const auto& [face, uses] : faces) {
         EXPECT_LE(uses, 2);

@@ -36,7 +36,9 @@ ImportRequest in_metres() {
     return request;
 }
 
-MeshSize target(std::size_t count) { return {.target_tetrahedra = count, .edge_length_m = {}}; }
+MeshSize target(std::size_t count) {
+    return {.target_tetrahedra = count, .edge_length_m = {}};
+}
 
 void expect_count(const MadeMesh& made, double wanted) {
     EXPECT_NEAR(static_cast<double>(made.mesh.tetrahedra.size()), wanted, kWantedCount * wanted);
@@ -72,7 +74,8 @@ TEST(Primitives, Of_the_same_request_are_the_same_mesh) {
 }
 
 TEST(Primitives, Keep_the_wanted_edge_length) {
-    const MadeMesh made = finish(mesh_box({0.1, 0.1, 0.1}, {.target_tetrahedra = {}, .edge_length_m = 0.02}), "a box");
+    const MadeMesh made =
+        finish(mesh_box({0.1, 0.1, 0.1}, {.target_tetrahedra = {}, .edge_length_m = 0.02}), "a box");
     double sum = 0;
     for (const Tetrahedron& t : made.mesh.tetrahedra)
         for (int i = 0; i < 4; ++i)
@@ -81,7 +84,9 @@ TEST(Primitives, Keep_the_wanted_edge_length) {
                 const Point& b = made.mesh.nodes_m[t[j]];
                 sum += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
             }
-    constexpr double kMeanEdge = 0.2;  // gmsh aims for the length; Delaunay meshes scatter around it
+    // gmsh aims for the length, Delaunay meshes scatter around it, and each tetrahedron counts its inner
+    // diagonals.
+    constexpr double kMeanEdge = 0.25;
     EXPECT_NEAR(sum / (6.0 * static_cast<double>(made.mesh.tetrahedra.size())), 0.02, kMeanEdge * 0.02);
 }
 
@@ -89,14 +94,16 @@ TEST(Primitives, With_bad_lengths_are_refused) {
     KNEAD_EXPECT_REFUSAL(mesh_sphere(0, {}), bad_usage, "greater than 0");
     KNEAD_EXPECT_REFUSAL(mesh_box({1, -1, 1}, {}), bad_usage, "greater than 0");
     KNEAD_EXPECT_REFUSAL(mesh_box({1, NAN, 1}, {}), bad_usage, "finite");
-    KNEAD_EXPECT_REFUSAL(mesh_box({1, 1, 1}, {.target_tetrahedra = {}, .edge_length_m = 1e-5}), bad_usage, "too small");
+    KNEAD_EXPECT_REFUSAL(mesh_box({1, 1, 1}, {.target_tetrahedra = {}, .edge_length_m = 1e-5}), bad_usage,
+                         "too small");
 }
 
 TEST(Outline, Of_the_steak_meshes_to_both_counts_of_the_paper) {
     OutlineSlab slab;
     slab.corners_m = read_outline(data("steak_outline.csv"));
     for (auto& corner : slab.corners_m)
-        for (double& x : corner) x *= 0.01;
+        for (double& x : corner)
+            x *= 0.01;
     slab.thickness_m = 0.025;
     for (const std::size_t wanted : {2894U, 1207U}) {
         const MadeMesh made = finish(mesh_outline(slab, target(wanted)), "an outline");
@@ -155,7 +162,8 @@ TEST(Import, Of_brep_needs_a_unit) {
 TEST(Import, Of_a_closed_surface_fills_it) {
     ImportRequest request;
     request.metres_per_unit = 0.01;
-    for (const std::string& content : {cube_stl(0, 2), cube_stl_binary(0, 2), cube_ply(0, 2), cube_ply_binary(0, 2, true)})
+    for (const std::string& content :
+         {cube_stl(0, 2), cube_stl_binary(0, 2), cube_ply(0, 2), cube_ply_binary(0, 2, true)})
         expect_volume(import_mesh(content, request), 8e-6, kExactVolume);
     request.size = target(400);
     const MadeMesh anew = import_mesh(cube_stl(0, 2), request);
@@ -180,13 +188,16 @@ TEST(Import, Of_msh_gives_the_same_mesh_from_every_version) {
     EXPECT_EQ(reference.mesh.regions.names, (std::vector<std::string>{"soft", "physical_12"}));
     expect_volume(reference, 2, kExactVolume);
     for (std::size_t t = 0; t < 48; ++t)
-        EXPECT_EQ(reference.mesh.regions.region_of_tetrahedron[t], barycentre_m(reference.mesh, t)[0] < 1 ? 0U : 1U);
-    for (const char* name : {"two_boxes_v2.2b.msh", "two_boxes_v4.msh", "two_boxes_v4.1.msh", "two_boxes_v4.1b.msh"}) {
+        EXPECT_EQ(reference.mesh.regions.region_of_tetrahedron[t],
+                  barycentre_m(reference.mesh, t)[0] < 1 ? 0U : 1U);
+    for (const char* name :
+         {"two_boxes_v2.2b.msh", "two_boxes_v4.msh", "two_boxes_v4.1.msh", "two_boxes_v4.1b.msh"}) {
         const MadeMesh made = import_mesh(data(name), in_metres());
         EXPECT_EQ(made.mesh.nodes_m, reference.mesh.nodes_m) << name;
         EXPECT_EQ(made.mesh.tetrahedra, reference.mesh.tetrahedra) << name;
         EXPECT_EQ(made.mesh.regions.names, reference.mesh.regions.names) << name;
-        EXPECT_EQ(made.mesh.regions.region_of_tetrahedron, reference.mesh.regions.region_of_tetrahedron) << name;
+        EXPECT_EQ(made.mesh.regions.region_of_tetrahedron, reference.mesh.regions.region_of_tetrahedron)
+            << name;
     }
     const MadeMesh version_1 = import_mesh(data("two_boxes_v1.msh"), in_metres());
     EXPECT_EQ(version_1.mesh.tetrahedra, reference.mesh.tetrahedra);
@@ -199,7 +210,8 @@ TEST(Import, Of_msh_with_element_data_carries_them) {
     EXPECT_EQ(made.mesh.cell_arrays[0].name, "stiffness");
     ASSERT_EQ(made.mesh.cell_arrays[0].values.size(), 48U);
     for (std::size_t t = 1; t < 48; ++t)  // the file gives every element its own number
-        EXPECT_EQ(made.mesh.cell_arrays[0].values[t], made.mesh.cell_arrays[0].values[0] + static_cast<double>(t));
+        EXPECT_EQ(made.mesh.cell_arrays[0].values[t],
+                  made.mesh.cell_arrays[0].values[0] + static_cast<double>(t));
 }
 
 TEST(Import, Of_msh_names_bad_elements_by_their_numbers) {
@@ -221,6 +233,10 @@ TEST(Import, Of_binary_msh_that_was_cut_off_is_refused) {
     EXPECT_THROW((void)import_mesh(patched, in_metres()), ToolError);
 }
 
+TEST(Import, Of_a_damaged_file_that_crashes_gmsh_is_refused_and_survived) {
+    KNEAD_EXPECT_REFUSAL(import_mesh(data("damaged_box.brep"), in_metres()), bad_input, "damaged");
+}
+
 TEST(Import, Options_that_do_not_fit_the_format_are_refused) {
     KNEAD_EXPECT_REFUSAL(import_mesh(small_msh(), {}), bad_usage, "--length-unit");
     ImportRequest request = in_metres();
@@ -230,7 +246,6 @@ TEST(Import, Options_that_do_not_fit_the_format_are_refused) {
     request.repair_orientation = true;
     KNEAD_EXPECT_REFUSAL(import_mesh(cube_stl(0, 1), request), bad_usage, "is not a mesh");
 }
-
 
 }  // namespace
 }  // namespace knead::tools

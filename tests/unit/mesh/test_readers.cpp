@@ -28,7 +28,8 @@ TEST(Medit, Script_text_and_broken_sections_are_refused) {
     KNEAD_EXPECT_REFUSAL(read_medit("MeshVersionFormatted 2\nSystemCall \"x\";\n"), bad_input, "SystemCall");
     KNEAD_EXPECT_REFUSAL(read_medit("MeshVersionFormatted 2\nDimension 2\n"), bad_input, "three-dimensional");
     KNEAD_EXPECT_REFUSAL(read_medit("MeshVersionFormatted 2\nDimension 3\nVertices -1\n"), bad_input, "-1");
-    KNEAD_EXPECT_REFUSAL(read_medit("MeshVersionFormatted 2\nDimension 3\nVertices 99999999999\n"), bad_input, "too short");
+    KNEAD_EXPECT_REFUSAL(read_medit("MeshVersionFormatted 2\nDimension 3\nVertices 99999999999\n"), bad_input,
+                         "too short");
 }
 
 TEST(Vtk, Keeps_tetrahedra_and_their_scalars_and_tells_what_it_leaves_out) {
@@ -50,12 +51,14 @@ void append_big_endian(std::string& bytes, std::initializer_list<T> values) {
     for (const T value : values) {
         char raw[sizeof(T)];
         std::memcpy(raw, &value, sizeof(T));
-        for (std::size_t i = sizeof(T); i-- > 0;) bytes += raw[i];
+        for (std::size_t i = sizeof(T); i-- > 0;)
+            bytes += raw[i];
     }
 }
 
 TEST(Vtk, Version_5_in_binary_gives_the_same_mesh) {
-    std::string bytes = "# vtk DataFile Version 5.1\nsmall\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n";
+    std::string bytes =
+        "# vtk DataFile Version 5.1\nsmall\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n";
     append_big_endian<double>(bytes, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1});
     bytes += "\nMETADATA\nINFORMATION 0\n\nCELLS 3 8\nOFFSETS vtktypeint64\n";
     append_big_endian<std::int64_t>(bytes, {0, 4, 8});
@@ -75,7 +78,8 @@ TEST(Vtk, Version_5_in_binary_gives_the_same_mesh) {
 
 TEST(Vtk, Broken_content_is_refused) {
     KNEAD_EXPECT_REFUSAL(read_vtk(small_vtk() + "SystemCall \"x\";\n"), bad_input, "SystemCall");
-    KNEAD_EXPECT_REFUSAL(read_vtk("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"), bad_input, "UNSTRUCTURED_GRID");
+    KNEAD_EXPECT_REFUSAL(read_vtk("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"), bad_input,
+                         "UNSTRUCTURED_GRID");
     std::string longer = small_vtk();
     longer.replace(longer.find("3 0 1 2\n"), 8, "9 0 1 2\n");
     KNEAD_EXPECT_REFUSAL(read_vtk(longer), bad_input, "cell");

@@ -18,8 +18,10 @@ TEST(Recognise, Each_format_by_its_content) {
     EXPECT_EQ(recognise(cube_stl(0, 1)), FileFormat::stl_text);
     EXPECT_EQ(recognise(cube_stl_binary(0, 1)), FileFormat::stl_binary);
     EXPECT_EQ(recognise(cube_ply(0, 1)), FileFormat::ply);
-    EXPECT_EQ(recognise("ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"), FileFormat::step);
-    EXPECT_EQ(recognise("\nDBRep_DrawableShape\n\nCASCADE Topology V1, (c) Matra-Datavision\n"), FileFormat::brep);
+    EXPECT_EQ(recognise("ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"),
+              FileFormat::step);
+    EXPECT_EQ(recognise("\nDBRep_DrawableShape\n\nCASCADE Topology V1, (c) Matra-Datavision\n"),
+              FileFormat::brep);
     EXPECT_EQ(recognise("CASCADE Topology V3, (c) Open Cascade\n"), FileFormat::brep);
 }
 
@@ -53,7 +55,8 @@ TEST(Recognise, A_script_before_between_or_after_the_sections_of_a_mesh_is_refus
 
 TEST(Recognise, A_mesh_that_was_cut_off_is_refused_wherever_it_was_cut) {
     const std::string whole = small_msh();
-    for (std::size_t size = 0; size + 1 < whole.size(); ++size) EXPECT_THROW((void)recognise(whole.substr(0, size)), ToolError) << size;
+    for (std::size_t size = 0; size + 1 < whole.size(); ++size)
+        EXPECT_THROW((void)recognise(whole.substr(0, size)), ToolError) << size;
     KNEAD_EXPECT_REFUSAL(recognise("ISO-10303-21;\nHEADER;\n"), bad_input, "cut off");
 }
 
@@ -64,7 +67,8 @@ TEST(Recognise, Versions_of_msh_that_are_not_known_are_refused) {
 }
 
 TEST(Extension, That_contradicts_the_content_is_refused_and_both_are_named) {
-    KNEAD_EXPECT_REFUSAL(require_matching_extension(FileFormat::stl_text, ".msh"), bad_input, "a text STL file");
+    KNEAD_EXPECT_REFUSAL(require_matching_extension(FileFormat::stl_text, ".msh"), bad_input,
+                         "a text STL file");
     KNEAD_EXPECT_REFUSAL(require_matching_extension(FileFormat::msh, ".STL"), bad_input, ".STL");
     EXPECT_NO_THROW(require_matching_extension(FileFormat::msh, ".MSH"));
     EXPECT_NO_THROW(require_matching_extension(FileFormat::msh, ""));

@@ -9,7 +9,9 @@ namespace {
 
 using namespace test;
 
-std::string no_includes(const std::string& name) { throw ToolError(ExitCode::bad_input, "no " + name); }
+std::string no_includes(const std::string& name) {
+    throw ToolError(ExitCode::bad_input, "no " + name);
+}
 
 TEST(Veg, Keeps_tetrahedra_regions_and_materials) {
     const RawMesh mesh = read_veg(small_veg(), no_includes);
@@ -27,10 +29,11 @@ TEST(Veg, Keeps_tetrahedra_regions_and_materials) {
 }
 
 TEST(Veg, Numbered_from_zero_gives_the_same_mesh) {
-    const RawMesh mesh = read_veg("*VERTICES\n5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1 1 1\n*ELEMENTS\nTET\n2 4 0\n"
-                                  "0 0 1 2 3\n1 1 2 3 4\n*MATERIAL m\nENU,1,2,0.3\n*SET second\n1\n*REGION\nallElements,m\n"
-                                  "*REGION\nsecond,m\n",
-                                  no_includes);
+    const RawMesh mesh = read_veg(
+        "*VERTICES\n5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1 1 1\n*ELEMENTS\nTET\n2 4 0\n"
+        "0 0 1 2 3\n1 1 2 3 4\n*MATERIAL m\nENU,1,2,0.3\n*SET second\n1\n*REGION\nallElements,m\n"
+        "*REGION\nsecond,m\n",
+        no_includes);
     EXPECT_EQ(mesh.tetrahedra, read_veg(small_veg(), no_includes).tetrahedra);
     EXPECT_EQ(mesh.regions.region_of_tetrahedron, (std::vector<std::uint32_t>{0, 1}));
     EXPECT_EQ(mesh.tetrahedron_numbers, (std::vector<std::int64_t>{0, 1}));
@@ -44,7 +47,8 @@ TEST(Veg, Includes_stand_where_they_are_named) {
         return std::string("# list\n2,\n");
     });
     EXPECT_EQ(mesh.regions.region_of_tetrahedron, (std::vector<std::uint32_t>{0, 1}));
-    KNEAD_EXPECT_REFUSAL(read_veg("*INCLUDE a", [](const std::string&) { return std::string("*INCLUDE a"); }), bad_input, "deeply");
+    KNEAD_EXPECT_REFUSAL(read_veg("*INCLUDE a", [](const std::string&) { return std::string("*INCLUDE a"); }),
+                         bad_input, "deeply");
 }
 
 TEST(Veg, Broken_content_is_refused_with_its_line) {
@@ -54,18 +58,24 @@ TEST(Veg, Broken_content_is_refused_with_its_line) {
     };
     KNEAD_EXPECT_REFUSAL(read_veg(with("2 1 0 0", "3 1 0 0"), no_includes), bad_input, "line 5: vertex 2");
     KNEAD_EXPECT_REFUSAL(read_veg(with("2 2 3 4 5", "2 2 3 4"), no_includes), bad_input, "line 13");
-    KNEAD_EXPECT_REFUSAL(read_veg(with("*SET outer\n1", "*SET outer\n9"), no_includes), bad_input, "names element 9");
-    KNEAD_EXPECT_REFUSAL(read_veg(with("outer, hard", "outer, iron"), no_includes), bad_input, "no material \"iron\"");
-    KNEAD_EXPECT_REFUSAL(read_veg(with("outer, hard", "rim, hard"), no_includes), bad_input, "no set \"rim\"");
-    KNEAD_EXPECT_REFUSAL(read_veg(with("*REGION\ninner, soft\n", ""), no_includes), bad_input, "1 of 2 elements are in no *REGION");
+    KNEAD_EXPECT_REFUSAL(read_veg(with("*SET outer\n1", "*SET outer\n9"), no_includes), bad_input,
+                         "names element 9");
+    KNEAD_EXPECT_REFUSAL(read_veg(with("outer, hard", "outer, iron"), no_includes), bad_input,
+                         "no material \"iron\"");
+    KNEAD_EXPECT_REFUSAL(read_veg(with("outer, hard", "rim, hard"), no_includes), bad_input,
+                         "no set \"rim\"");
+    KNEAD_EXPECT_REFUSAL(read_veg(with("*REGION\ninner, soft\n", ""), no_includes), bad_input,
+                         "1 of 2 elements are in no *REGION");
     KNEAD_EXPECT_REFUSAL(read_veg(with("5 3 0 0", "5000 3 0 0"), no_includes), bad_input, "fewer lines");
-    KNEAD_EXPECT_REFUSAL(read_veg(with("ENU, 1000, 5000, 0.3", "ENU, 1000, x, 0.3"), no_includes), bad_input, "number");
+    KNEAD_EXPECT_REFUSAL(read_veg(with("ENU, 1000, 5000, 0.3", "ENU, 1000, x, 0.3"), no_includes), bad_input,
+                         "number");
     KNEAD_EXPECT_REFUSAL(read_veg(small_veg() + "*SHELL s\n", no_includes), bad_input, "*SHELL");
     KNEAD_EXPECT_REFUSAL(read_veg("*VERTICES\n1 3\n1 0 0 0\n", no_includes), bad_input, "*ELEMENTS");
 }
 
 TEST(Veg, Cubic_elements_are_counted_as_left_out) {
-    const RawMesh mesh = read_veg("*VERTICES\n1 3 0 0\n1 0 0 0\n*ELEMENTS\nCUBIC\n1 8 0\n1 1 1 1 1 1 1 1 1\n", no_includes);
+    const RawMesh mesh =
+        read_veg("*VERTICES\n1 3 0 0\n1 0 0 0\n*ELEMENTS\nCUBIC\n1 8 0\n1 1 1 1 1 1 1 1 1\n", no_includes);
     EXPECT_TRUE(mesh.tetrahedra.empty());
     EXPECT_EQ(mesh.other_cells[0], (std::pair<std::string, std::size_t>("cubes", 1)));
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <ostream>
 
 namespace knead::test {
 namespace {
@@ -209,6 +210,10 @@ std::string name_of(PairKind kind) {
             return "far_from_origin";
     }
     return "unknown";
+}
+
+void PrintTo(PairKind kind, std::ostream* stream) {
+    *stream << name_of(kind);
 }
 
 std::vector<TetPair> make_pairs(PairKind kind, int count) {

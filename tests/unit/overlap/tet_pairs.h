@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <random>
 #include <string>
 #include <utility>
@@ -32,6 +33,7 @@ enum class PairKind {
 
 [[nodiscard]] std::vector<PairKind> all_pair_kinds();
 [[nodiscard]] std::string name_of(PairKind kind);
+void PrintTo(PairKind kind, std::ostream* stream);  ///< for gtest
 
 /// The same pairs on every machine.
 [[nodiscard]] std::vector<TetPair> make_pairs(PairKind kind, int count);

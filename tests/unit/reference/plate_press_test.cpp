@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <string>
 
 #include "common/error.h"
@@ -28,6 +29,10 @@ struct KnownPress {
     double force_n;
     double factor;
 };
+
+void PrintTo(const KnownPress& known, std::ostream* out) {
+    *out << "n = " << known.cells;
+}
 
 class KnownCube : public testing::TestWithParam<KnownPress> {};
 

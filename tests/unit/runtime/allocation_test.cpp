@@ -18,19 +18,33 @@ void* operator new(std::size_t size) {
     if (void* memory = std::malloc(size)) return memory;
     throw std::bad_alloc();
 }
-void* operator new[](std::size_t size) { return operator new(size); }
+void* operator new[](std::size_t size) {
+    return operator new(size);
+}
 void* operator new(std::size_t size, std::align_val_t alignment) {
     ++allocations;
     const auto align = static_cast<std::size_t>(alignment);
     if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
     throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
 
 namespace knead::test {
 namespace {
@@ -46,7 +60,8 @@ TEST(Step, never_allocates) {
             std::uint32_t most_touched = 0;
             for (int i = 0; i < 200; ++i) {
                 const double z = 0.002 - 0.02 * std::sin(0.03 * i);
-                most_touched = std::max(most_touched, stepper.step(moved(asset, {0, 0, z}), 1e-3).touched_nodes);
+                most_touched =
+                    std::max(most_touched, stepper.step(moved(asset, {0, 0, z}), 1e-3).touched_nodes);
             }
             (void)stepper.step(moved(asset, {std::nan(""), 0, 0}), 1e-3);
             (void)stepper.step(moved(asset, {1e306, 0, 0}), 1e-3);

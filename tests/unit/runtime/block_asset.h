@@ -31,9 +31,11 @@ inline Asset asset_of(const TetMesh& mesh, const NodeTest& is_held, const Palett
         if (!held) asset.free_node_count = static_cast<std::uint32_t>(asset.nodes_m.size());
     }
     for (Tetrahedron t : mesh.tetrahedra) {
-        for (std::uint32_t& node : t) node = new_index[node];
+        for (std::uint32_t& node : t)
+            node = new_index[node];
         bool moves = false;
-        for (const std::uint32_t node : t) moves = moves || node < asset.free_node_count;
+        for (const std::uint32_t node : t)
+            moves = moves || node < asset.free_node_count;
         if (moves) asset.tetrahedra.push_back(t);
     }
     asset.palette = {material};
@@ -55,7 +57,8 @@ inline NodeTest at_height(double z_m) {
 }
 
 /// The paper's cube on its table: n^3 cells, bottom held, one tool at the top face's middle.
-inline Asset cube_asset(std::uint32_t n, ToolShape shape, ToolContact contact, const PaletteEntry& material = kGel) {
+inline Asset cube_asset(std::uint32_t n, ToolShape shape, ToolContact contact,
+                        const PaletteEntry& material = kGel) {
     constexpr double kSide_m = 0.1;
     Asset asset = asset_of(kuhn_cube(n, kSide_m), at_height(0), material);
     ToolSet tool;

@@ -8,12 +8,12 @@
 
 static int failures = 0;
 
-#define CHECK(condition)                                                       \
-    do {                                                                       \
-        if (!(condition)) {                                                    \
-            fprintf(stderr, "line %d: not true: %s\n", __LINE__, #condition);  \
-            ++failures;                                                        \
-        }                                                                      \
+#define CHECK(condition)                                                      \
+    do {                                                                      \
+        if (!(condition)) {                                                   \
+            fprintf(stderr, "line %d: not true: %s\n", __LINE__, #condition); \
+            ++failures;                                                       \
+        }                                                                     \
     } while (0)
 
 static void check_names(void) {
@@ -61,7 +61,8 @@ static void check_press(const char* asset) {
     knead_step_result_init(&result);
     for (i = 1; i <= 300; ++i) {
         position[2] = 0.1 - 0.01 * (i < 50 ? i / 50.0 : 1.0);
-        CHECK(knead_simulation_step(simulation, position, i % 2 ? orientation : NULL, 20e-3, &result) == KNEAD_OK);
+        CHECK(knead_simulation_step(simulation, position, i % 2 ? orientation : NULL, 20e-3, &result) ==
+              KNEAD_OK);
         CHECK(result.status == 0);
     }
     CHECK(fabs(result.force_n[2] - 23.82645) < 1e-3 * 23.82645);

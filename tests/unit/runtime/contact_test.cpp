@@ -13,7 +13,8 @@ namespace {
 using core::Stepper;
 using core::Vec;
 
-/// No slip: two independent programs. Free slip: the factor 1.033 of the design's experiments, known to 3 digits.
+/// No slip: two independent programs. Free slip: the factor 1.033 of the design's experiments, known to 3
+/// digits.
 constexpr double kPressedCube_n = 23.82645;
 constexpr double kPressedCubeTolerance_n = 1e-5;
 /// A pull of the object on the tool that is solver error, relative to the largest push.
@@ -58,15 +59,17 @@ Trace press_and_leave(const Asset& asset, double depth_m) {
         trace.largest_push_n = std::max(trace.largest_push_n, result.force_n[2]);
         trace.largest_pull_n = std::max(trace.largest_pull_n, -result.force_n[2]);
         for (const auto node : asset.tools[0].nodes) {
-            trace.deepest_m = std::max(trace.deepest_m, depth_of(asset.tools[0], pose, stepper.positions_m()[node]));
+            trace.deepest_m =
+                std::max(trace.deepest_m, depth_of(asset.tools[0], pose, stepper.positions_m()[node]));
         }
     }
     return trace;
 }
 
-/// Most that the force may change in step i: the stiffness of one layer of cells under the whole plate, laterally
-/// confined, on the tool's way of a step at its fastest; and, for every node caught or let go in the last steps, a
-/// cell's mass brought to that speed or back within a step (it rings in the layers beneath for a few steps).
+/// Most that the force may change in step i: the stiffness of one layer of cells under the whole plate,
+/// laterally confined, on the tool's way of a step at its fastest; and, for every node caught or let go in
+/// the last steps, a cell's mass brought to that speed or back within a step (it rings in the layers beneath
+/// for a few steps).
 double explained_change_n(const Trace& trace, std::size_t i, double depth_m) {
     constexpr std::size_t kRinging = 5;
     const double cell_m = 0.1 / kCells;
@@ -75,7 +78,8 @@ double explained_change_n(const Trace& trace, std::size_t i, double depth_m) {
     const double speed = EIGEN_PI * (depth_m + kClearance_m);
     double changed = 0;
     for (std::size_t k = i; k > 0 && k + kRinging > i; --k) {
-        changed += std::abs(static_cast<double>(trace.touched[k]) - static_cast<double>(trace.touched[k - 1]));
+        changed +=
+            std::abs(static_cast<double>(trace.touched[k]) - static_cast<double>(trace.touched[k - 1]));
     }
     return (layer_n_per_m * kDt_s + changed * cell_kg / kDt_s) * speed;
 }
@@ -102,20 +106,22 @@ TEST_P(Touch, and_leave_never_pulls_never_penetrates_and_jumps_only_by_stiffness
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Tools, Touch,
-    testing::Combine(testing::Values(ToolShape::plate, ToolShape::sphere),
-                     testing::Values(ToolContact::sticking, ToolContact::frictionless)),
-    [](const auto& tested) {
-        return std::string(std::get<0>(tested.param) == ToolShape::plate ? "plate" : "sphere") +
-               (std::get<1>(tested.param) == ToolContact::sticking ? "_sticking" : "_frictionless");
-    });
+INSTANTIATE_TEST_SUITE_P(Tools, Touch,
+                         testing::Combine(testing::Values(ToolShape::plate, ToolShape::sphere),
+                                          testing::Values(ToolContact::sticking, ToolContact::frictionless)),
+                         [](const auto& tested) {
+                             return std::string(std::get<0>(tested.param) == ToolShape::plate ? "plate"
+                                                                                              : "sphere") +
+                                    (std::get<1>(tested.param) == ToolContact::sticking ? "_sticking"
+                                                                                        : "_frictionless");
+                         });
 
 TEST(Plate, that_sticks_settles_at_the_force_of_a_bonded_press) {
     const Asset asset = cube_asset(6, ToolShape::plate, ToolContact::sticking);
     Stepper stepper(asset, precise());
     const StepResult result = settle(stepper, asset, {0, 0, -0.01});
-    // It takes hold where the nodes are when it comes: at rest, up to what the first contact moves them sideways.
+    // It takes hold where the nodes are when it comes: at rest, up to what the first contact moves them
+    // sideways.
     EXPECT_NEAR(result.force_n[2], kPressedCube_n, 1e-3 * kPressedCube_n);
     EXPECT_EQ(result.touched_nodes, 49u);
 }
@@ -143,7 +149,8 @@ TEST(Plate, dragged_sideways_pulls_along_only_where_it_sticks) {
         Stepper stepper(asset, precise());
         (void)settle(stepper, asset, {0, 0, -0.01}, 50, 50);
         StepResult result;
-        for (int i = 1; i <= 100; ++i) result = stepper.step(moved(asset, {0.01 * std::min(1.0, i / 50.0), 0, -0.01}), 20e-3);
+        for (int i = 1; i <= 100; ++i)
+            result = stepper.step(moved(asset, {0.01 * std::min(1.0, i / 50.0), 0, -0.01}), 20e-3);
         if (contact == ToolContact::sticking) {
             EXPECT_LT(result.force_n[0], -2);
         } else {
@@ -159,7 +166,8 @@ TEST(Plate, with_edges_touches_only_what_lies_before_its_face) {
     StepResult result = settle(stepper, asset, {0, 0, -0.01}, 50, 50);
     EXPECT_EQ(result.status, kStepOk);
     EXPECT_EQ(result.touched_nodes, 9u);
-    // Slid sideways, it leaves what it passes and does not snatch the nodes that stand beside it, above its face.
+    // Slid sideways, it leaves what it passes and does not snatch the nodes that stand beside it, above its
+    // face.
     double before = result.force_n[2];
     for (int i = 1; i <= 200; ++i) {
         result = stepper.step(moved(asset, {1e-4 * i, 0, -0.01}), 1e-3);

@@ -39,7 +39,8 @@ TEST_P(Coupling, at_rest_balances_spring_and_object) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Contacts, Coupling,
-                         testing::Values(ToolContact::bonded, ToolContact::sticking, ToolContact::frictionless));
+                         testing::Values(ToolContact::bonded, ToolContact::sticking,
+                                         ToolContact::frictionless));
 
 TEST(CoupledTool, away_from_the_object_is_a_damped_oscillator_of_implicit_euler) {
     const Asset asset = cube_asset(2, ToolShape::plate, ToolContact::sticking);
@@ -66,7 +67,8 @@ TEST(CoupledTool, that_is_light_and_held_hard_stays_stable) {
     for (const double dt : {0.25e-3, 1e-3, 20e-3}) {
         Stepper stepper(asset, coupled(1e5, 0, 1e-4));  // a mass far below that of the nodes it carries
         StepResult result;
-        for (int i = 0; i < 400; ++i) result = stepper.step(moved(asset, {0, 0, -0.005}), dt);
+        for (int i = 0; i < 400; ++i)
+            result = stepper.step(moved(asset, {0, 0, -0.005}), dt);
         EXPECT_EQ(result.status, kStepOk);
         EXPECT_LT(std::abs(result.tool_position_m[2] - 0.095), 1e-3);
         EXPECT_LT(result.force_n[2], 30);

@@ -30,7 +30,8 @@ Field random_move(const Model& model, double size_m, std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     Field x = model.rest_m;
     for (Vec& node : x) {
-        for (double& c : node) c += size_m * (2 * static_cast<double>(engine() >> 11U) * 0x1.0p-53 - 1);
+        for (double& c : node)
+            c += size_m * (2 * static_cast<double>(engine() >> 11U) * 0x1.0p-53 - 1);
     }
     return x;
 }
@@ -42,7 +43,8 @@ double energy(const Asset& asset, const Field& x) {
         Mat rest, now;
         for (int k = 0; k < 3; ++k) {
             const auto a = asset.tetrahedra[t][0], b = asset.tetrahedra[t][k + 1];
-            for (int c = 0; c < 3; ++c) rest(c, k) = asset.nodes_m[b][c] - asset.nodes_m[a][c];
+            for (int c = 0; c < 3; ++c)
+                rest(c, k) = asset.nodes_m[b][c] - asset.nodes_m[a][c];
             now.col(k) = x[b] - x[a];
         }
         const Mat f = now * rest.inverse();
@@ -68,7 +70,8 @@ Field forces_at(const Model& model, const Field& x) {
 
 double largest(const Field& field) {
     double result = 0;
-    for (const Vec& v : field) result = std::max(result, v.norm());
+    for (const Vec& v : field)
+        result = std::max(result, v.norm());
     return result;
 }
 
@@ -86,19 +89,25 @@ void expect_negative_energy_gradient(double move_m) {
             x[i][c] = at - kStep_m;
             const double below = energy(asset, x);
             x[i][c] = at;
-            EXPECT_NEAR(forces[i][c], -(above - below) / (2 * kStep_m), kDifferenceTolerance * largest(forces));
+            EXPECT_NEAR(forces[i][c], -(above - below) / (2 * kStep_m),
+                        kDifferenceTolerance * largest(forces));
         }
     }
 }
 
-TEST(ElementForces, of_a_bent_body_are_the_negative_gradient_of_the_energy) { expect_negative_energy_gradient(0.01); }
-TEST(ElementForces, of_a_tangled_body_are_the_negative_gradient_of_the_energy) { expect_negative_energy_gradient(0.1); }
+TEST(ElementForces, of_a_bent_body_are_the_negative_gradient_of_the_energy) {
+    expect_negative_energy_gradient(0.01);
+}
+TEST(ElementForces, of_a_tangled_body_are_the_negative_gradient_of_the_energy) {
+    expect_negative_energy_gradient(0.1);
+}
 
 TEST(ElementForces, after_a_rigid_motion_are_zero) {
     const Model model = build_model(irregular_block(5));
     const Mat turn = Eigen::AngleAxisd(2.5, Vec(1, -2, 0.5).normalized()).toRotationMatrix();
     Field x = model.rest_m;
-    for (Vec& node : x) node = turn * node + Vec(3, -1, 2);
+    for (Vec& node : x)
+        node = turn * node + Vec(3, -1, 2);
     const double scale = 42e3 * 0.1 * 0.1;  // stiffest modulus times an element's face
     EXPECT_LT(largest(forces_at(model, x)), 1e-11 * scale);
 }
@@ -118,7 +127,8 @@ TEST(ElementForces, of_an_affine_move_balance_inside_and_give_the_analytic_tract
     stretch << 1.1, 0.05, 0.02, 0.05, 0.93, 0.04, 0.02, 0.04, 1.2;
     const Mat turn = Eigen::AngleAxisd(0.8, Vec(0, 1, 1).normalized()).toRotationMatrix();
     Field x = model.rest_m;
-    for (Vec& node : x) node = turn * stretch * node;
+    for (Vec& node : x)
+        node = turn * stretch * node;
     const Field forces = forces_at(model, x);
 
     const double mu = 22e3 / 2.6, lambda = 22e3 * 0.3 / (1.3 * 0.4);
@@ -131,7 +141,8 @@ TEST(ElementForces, of_an_affine_move_balance_inside_and_give_the_analytic_tract
         if (inside) {
             EXPECT_LT(forces[i].norm(), 1e-11 * largest(forces));
         }
-        if (p.x() > 0.01 && p.x() < 0.09 && p.y() > 0.01 && p.y() < 0.09 && p.z() > 0.1 - 1e-9) top += forces[i];
+        if (p.x() > 0.01 && p.x() < 0.09 && p.y() > 0.01 && p.y() < 0.09 && p.z() > 0.1 - 1e-9)
+            top += forces[i];
     }
     // Nodes of the top face inside its edges carry the face's traction on their share of its area.
     double area = 0;
@@ -144,7 +155,8 @@ TEST(ElementForces, of_an_affine_move_balance_inside_and_give_the_analytic_tract
             on_top.push_back(p);
             counted += p.x() > 0.01 && p.x() < 0.09 && p.y() > 0.01 && p.y() < 0.09 ? 1 : 0;
         }
-        if (on_top.size() == 3) area += (on_top[1] - on_top[0]).cross(on_top[2] - on_top[0]).norm() / 2 * counted / 3;
+        if (on_top.size() == 3)
+            area += (on_top[1] - on_top[0]).cross(on_top[2] - on_top[0]).norm() / 2 * counted / 3;
     }
     EXPECT_LT((top + stress.col(2) * area).norm(), 1e-11 * top.norm());
 }
@@ -171,7 +183,8 @@ Eigen::MatrixXd dense_stiffness(const Model& model, const ElementPass& pass) {
         u[j / 3][static_cast<int>(j % 3)] = 1;
         pass.apply_stiffness(model, u, out);
         u[j / 3].setZero();
-        for (std::size_t i = 0; i < n; ++i) k.block<3, 1>(3 * i, j) = out[i];
+        for (std::size_t i = 0; i < n; ++i)
+            k.block<3, 1>(3 * i, j) = out[i];
     }
     return k;
 }
@@ -183,13 +196,16 @@ TEST(ElementStiffness, at_rest_is_the_derivative_of_the_force) {
     pass.linearise(model, model.rest_m, forces);
     const Field moved = random_move(model, 1e-6, 3);
     Field u(moved.size());
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] = moved[i] - model.rest_m[i];
+    for (std::size_t i = 0; i < u.size(); ++i)
+        u[i] = moved[i] - model.rest_m[i];
     pass.apply_stiffness(model, u, product);
     const Field after = forces_at(model, moved);
-    for (std::size_t i = 0; i < u.size(); ++i) EXPECT_LT((after[i] + product[i]).norm(), 1e-4 * largest(product));
+    for (std::size_t i = 0; i < u.size(); ++i)
+        EXPECT_LT((after[i] + product[i]).norm(), 1e-4 * largest(product));
 }
 
-TEST(ElementStiffness, in_a_tangled_state_is_symmetric_and_positive_semidefinite_and_has_its_diagonal_blocks) {
+TEST(ElementStiffness,
+     in_a_tangled_state_is_symmetric_and_positive_semidefinite_and_has_its_diagonal_blocks) {
     const Model model = build_model(irregular_block(5));
     ElementPass pass(model);
     Field forces(model.rest_m.size());
@@ -221,7 +237,8 @@ TEST(ElementStiffness, reduced_to_a_tool_is_the_triple_product) {
         e.block<3, 3>(3 * i, 0) = columns[i];
     }
     const Mat expected = e.transpose() * dense_stiffness(model, pass) * e;
-    EXPECT_LT((pass.reduced_stiffness(model, columns, marked) - expected).norm(), kRounding * expected.norm());
+    EXPECT_LT((pass.reduced_stiffness(model, columns, marked) - expected).norm(),
+              kRounding * expected.norm());
 }
 
 }  // namespace

@@ -83,7 +83,8 @@ TEST(ScriptedDevice, replays_its_samples_then_stays_and_records_forces) {
     EXPECT_EQ(device.read().buttons, 5u);
     EXPECT_TRUE(device.finished());
     EXPECT_EQ(device.read().buttons, 5u);
-    for (int i = 0; i < 3; ++i) device.write({1.0 * i, 0, 0}, {});
+    for (int i = 0; i < 3; ++i)
+        device.write({1.0 * i, 0, 0}, {});
     ASSERT_EQ(device.forces_n().size(), 2u);  // one per sample, no more
     EXPECT_EQ(device.forces_n()[1][0], 1);
     device.rewind();
@@ -99,7 +100,8 @@ TEST(HapticLoop, replays_a_script_with_the_same_bits) {
     for (int run = 0; run < 2; ++run) {
         device.rewind();
         simulation.reset();
-        while (!device.finished()) (void)loop.tick(1e-3);
+        while (!device.finished())
+            (void)loop.tick(1e-3);
         if (run == 0) first = device.forces_n();
     }
     ASSERT_EQ(first.size(), device.forces_n().size());

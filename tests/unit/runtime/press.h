@@ -11,7 +11,8 @@ namespace knead::test {
 /// The tool's pose when it has moved from its rest pose by `move_m`.
 inline Pose moved(const Asset& asset, const Vec3& move_m) {
     Pose pose{asset.tools[0].rest_position_m, asset.tools[0].rest_orientation_wxyz};
-    for (std::size_t axis = 0; axis < 3; ++axis) pose.position_m[axis] += move_m[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        pose.position_m[axis] += move_m[axis];
     return pose;
 }
 

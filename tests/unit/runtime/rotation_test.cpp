@@ -29,7 +29,8 @@ class Random {
     }
     Mat matrix(double size) {
         Mat m;
-        for (int i = 0; i < 9; ++i) m(i) = uniform(-size, size);
+        for (int i = 0; i < 9; ++i)
+            m(i) = uniform(-size, size);
         return m;
     }
     Quat rotation() {
@@ -84,7 +85,8 @@ TEST(WarmRotation, after_half_a_turn_finds_the_turn) {
     for (const Vec& axis : {Vec(1, 0, 0), Vec(0, 1, 0), Vec(0, 0, 1), Vec(Vec(1, 2, 3).normalized())}) {
         const Mat turn = Eigen::AngleAxisd(EIGEN_PI, axis).toRotationMatrix();
         Quat start = Quat::Identity();
-        EXPECT_LT((warm_rotation(turn * Vec(1.1, 1, 0.9).asDiagonal(), start) - turn).norm(), kAngleTolerance);
+        EXPECT_LT((warm_rotation(turn * Vec(1.1, 1, 0.9).asDiagonal(), start) - turn).norm(),
+                  kAngleTolerance);
     }
 }
 

@@ -11,7 +11,9 @@
 namespace knead::test {
 namespace {
 
-Asset press_cube() { return cube_asset(3, ToolShape::plate, ToolContact::bonded); }
+Asset press_cube() {
+    return cube_asset(3, ToolShape::plate, ToolContact::bonded);
+}
 
 TEST(Simulation, made_from_memory_says_its_sizes_and_steps) {
     const Asset asset = press_cube();

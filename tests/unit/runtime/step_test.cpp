@@ -17,14 +17,19 @@ using core::Field;
 using core::Stepper;
 using core::Vec;
 
-/// Equilibrium of the 22 kPa cube (n = 6) pressed by 10 % without slip: two independent programs agree on all digits.
+/// Equilibrium of the 22 kPa cube (n = 6) pressed by 10 % without slip: two independent programs agree on all
+/// digits.
 constexpr double kPressedCube_n = 23.82645;
 /// Half a unit of the last digit of that number, and as much for the solver.
 constexpr double kPressedCubeTolerance_n = 1e-5;
 
-Vec to_vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
+Vec to_vec(const Vec3& v) {
+    return {v[0], v[1], v[2]};
+}
 
-Asset pressed_cube(std::uint32_t n = 6) { return cube_asset(n, ToolShape::plate, ToolContact::bonded); }
+Asset pressed_cube(std::uint32_t n = 6) {
+    return cube_asset(n, ToolShape::plate, ToolContact::bonded);
+}
 
 /// A body that nothing holds, with a tool that is far away.
 Asset free_block() {
@@ -50,7 +55,8 @@ Vec momentum(const Stepper& stepper) {
 
 double largest_distance(const Field& a, const Field& b) {
     double result = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) result = std::max(result, (a[i] - b[i]).norm());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        result = std::max(result, (a[i] - b[i]).norm());
     return result;
 }
 
@@ -66,9 +72,11 @@ TEST(Step, of_the_pressed_cube_settles_at_the_equilibrium_force) {
 TEST(Step, with_the_default_tolerance_settles_within_a_thousandth) {
     const Asset asset = pressed_cube();
     Stepper stepper(asset, {});
-    for (int i = 0; i < 600; ++i) (void)stepper.step(moved(asset, {0, 0, -0.01 * std::min(1.0, i / 300.0)}), 1e-3);
+    for (int i = 0; i < 600; ++i)
+        (void)stepper.step(moved(asset, {0, 0, -0.01 * std::min(1.0, i / 300.0)}), 1e-3);
     StepResult result;
-    for (int i = 0; i < 1500; ++i) result = stepper.step(moved(asset, {0, 0, -0.01}), 1e-3);
+    for (int i = 0; i < 1500; ++i)
+        result = stepper.step(moved(asset, {0, 0, -0.01}), 1e-3);
     EXPECT_NEAR(result.force_n[2], kPressedCube_n, 1e-3 * kPressedCube_n);
 }
 
@@ -112,7 +120,8 @@ TEST(Step, at_rest_changes_nothing) {
     const Asset asset = pressed_cube();
     Stepper stepper(asset, {});
     StepResult result;
-    for (int i = 0; i < 100; ++i) result = stepper.step(moved(asset, {}), 1e-3);
+    for (int i = 0; i < 100; ++i)
+        result = stepper.step(moved(asset, {}), 1e-3);
     EXPECT_LT(to_vec(result.force_n).norm(), 1e-10);
     EXPECT_LT(largest_distance(stepper.positions_m(), stepper.model().rest_m), 1e-15);
 }
@@ -123,7 +132,8 @@ TEST(Step, of_a_free_body_under_gravity_falls_without_deforming) {
     Stepper stepper(asset, precise());
     const int steps = 200;
     const double dt = 1e-3;
-    for (int i = 0; i < steps; ++i) EXPECT_EQ(stepper.step(moved(asset, {}), dt).status, kStepOk);
+    for (int i = 0; i < steps; ++i)
+        EXPECT_EQ(stepper.step(moved(asset, {}), dt).status, kStepOk);
     // Implicit Euler: x = g dt^2 n (n + 1) / 2, exactly.
     const Vec fallen = to_vec(asset.gravity_m_per_s2) * dt * dt * steps * (steps + 1) / 2.0;
     for (std::size_t i = 0; i < asset.nodes_m.size(); ++i) {
@@ -136,13 +146,16 @@ TEST(Step, of_a_damped_free_body_under_gravity_reaches_the_terminal_velocity) {
     asset.gravity_m_per_s2 = {0, 0, -9.81};
     asset.damping_per_s = 50;
     Stepper stepper(asset, precise());
-    for (int i = 0; i < 1000; ++i) (void)stepper.step(moved(asset, {0, 0, 1}), 1e-3);
-    for (const Vec& v : stepper.velocities_m_per_s()) EXPECT_LT((v - Vec(0, 0, -9.81 / 50)).norm(), 1e-6);
+    for (int i = 0; i < 1000; ++i)
+        (void)stepper.step(moved(asset, {0, 0, 1}), 1e-3);
+    for (const Vec& v : stepper.velocities_m_per_s())
+        EXPECT_LT((v - Vec(0, 0, -9.81 / 50)).norm(), 1e-6);
 }
 
 /// Throws the free block by letting the plate hit it from above, then takes the plate away.
 void hit(Stepper& stepper, const Asset& asset) {
-    for (int i = 0; i < 20; ++i) (void)stepper.step(moved(asset, {0, 0, -0.001 * i}), 1e-3);
+    for (int i = 0; i < 20; ++i)
+        (void)stepper.step(moved(asset, {0, 0, -0.001 * i}), 1e-3);
     (void)stepper.step(moved(asset, {0, 0, 1}), 1e-3);
 }
 
@@ -154,7 +167,8 @@ TEST(Step, of_a_free_vibrating_body_conserves_momentum) {
     hit(stepper, asset);
     const Vec before = momentum(stepper);
     ASSERT_GT(before.norm(), 1e-4);
-    for (int i = 0; i < 300; ++i) EXPECT_EQ(stepper.step(moved(asset, {0, 0, 1}), 1e-3).touched_nodes, 0u);
+    for (int i = 0; i < 300; ++i)
+        EXPECT_EQ(stepper.step(moved(asset, {0, 0, 1}), 1e-3).touched_nodes, 0u);
     EXPECT_LT((momentum(stepper) - before).norm(), 1e-6 * before.norm());
 }
 
@@ -185,7 +199,8 @@ TEST(Step, with_a_pose_that_is_not_valid_gives_zero_force_and_keeps_the_state) {
 TEST(Step, with_a_dt_out_of_range_is_refused) {
     const Asset asset = pressed_cube(2);
     Stepper stepper(asset, {});
-    for (const double dt : {0.0, -1e-3, 0.24e-3, 21e-3, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    for (const double dt :
+         {0.0, -1e-3, 0.24e-3, 21e-3, std::nan(""), std::numeric_limits<double>::infinity()}) {
         EXPECT_EQ(stepper.step(moved(asset, {}), dt).status, kStepBadInput) << dt;
     }
     for (const double dt : {0.25e-3, 1.0 / 4000, 20e-3, 1.0 / 50}) {
@@ -216,7 +231,8 @@ TEST(Step, at_its_iteration_cap_says_so_and_stops_the_free_nodes) {
     EXPECT_EQ(result.status, kStepNotConverged);
     EXPECT_EQ(result.solver_iterations, 2u);
     EXPECT_TRUE(std::isfinite(result.force_n[2]));
-    for (const Vec& v : stepper.velocities_m_per_s()) EXPECT_EQ(v.norm(), 0);
+    for (const Vec& v : stepper.velocities_m_per_s())
+        EXPECT_EQ(v.norm(), 0);
 }
 
 TEST(Step, repeated_with_the_same_inputs_gives_the_same_bits) {
@@ -227,8 +243,10 @@ TEST(Step, repeated_with_the_same_inputs_gives_the_same_bits) {
         return moved(asset, {0.002 * std::sin(0.1 * i), 0, -0.01 * std::sin(0.03 * i)});
     };
     std::vector<Vec3> forces;
-    for (int i = 0; i < 150; ++i) forces.push_back(first.step(pose(i), 1e-3 * (1 + i % 3)).force_n);
-    for (int i = 0; i < 40; ++i) (void)second.step(pose(2 * i), 2e-3);
+    for (int i = 0; i < 150; ++i)
+        forces.push_back(first.step(pose(i), 1e-3 * (1 + i % 3)).force_n);
+    for (int i = 0; i < 40; ++i)
+        (void)second.step(pose(2 * i), 2e-3);
     second.reset();
     for (int i = 0; i < 150; ++i) {
         const Vec3 again = second.step(pose(i), 1e-3 * (1 + i % 3)).force_n;
@@ -241,14 +259,17 @@ Asset shuffled(const Asset& asset, std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     std::vector<std::uint32_t> order(asset.free_node_count);
     std::iota(order.begin(), order.end(), 0);
-    for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[engine() % (i + 1)]);
+    for (std::size_t i = order.size() - 1; i > 0; --i)
+        std::swap(order[i], order[engine() % (i + 1)]);
     Asset result = asset;
-    for (std::uint32_t i = 0; i < order.size(); ++i) result.nodes_m[order[i]] = asset.nodes_m[i];
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+        result.nodes_m[order[i]] = asset.nodes_m[i];
     const auto renumber = [&](std::uint32_t& node) {
         if (node < order.size()) node = order[node];
     };
     for (Tetrahedron& t : result.tetrahedra) {
-        for (std::uint32_t& node : t) renumber(node);
+        for (std::uint32_t& node : t)
+            renumber(node);
         std::rotate(t.begin(), t.begin() + 1, t.begin() + 3);  // another first node, same orientation
     }
     for (std::size_t i = result.tetrahedra.size() - 1; i > 0; --i) {
@@ -256,7 +277,8 @@ Asset shuffled(const Asset& asset, std::uint64_t seed) {
         std::swap(result.tetrahedra[i], result.tetrahedra[j]);
         std::swap(result.palette_index[i], result.palette_index[j]);
     }
-    for (std::uint32_t& node : result.tools[0].nodes) renumber(node);
+    for (std::uint32_t& node : result.tools[0].nodes)
+        renumber(node);
     std::sort(result.tools[0].nodes.begin(), result.tools[0].nodes.end());
     return result;
 }
@@ -280,7 +302,9 @@ TEST(Step, at_half_compression_stays_finite_and_the_body_recovers) {
     std::uint32_t status = 0;
     int inverted = 0;
     for (int i = 1; i <= 2000; ++i) {
-        const double depth = i <= 500 ? 0.05 * i / 500.0 : i <= 700 ? 0.05 : std::max(0.0, 0.05 * (1200 - i) / 500.0);
+        const double depth = i <= 500   ? 0.05 * i / 500.0
+                             : i <= 700 ? 0.05
+                                        : std::max(0.0, 0.05 * (1200 - i) / 500.0);
         const StepResult result = stepper.step(moved(asset, {0, 0, -depth}), 2e-3);
         status |= result.status;
         ASSERT_TRUE(std::isfinite(result.force_n[2]));

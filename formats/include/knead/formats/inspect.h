@@ -12,14 +12,15 @@ namespace knead {
 
 /// One group or dataset of the payload as it stands in a file.
 struct NodeInfo {
-    std::string path;                    ///< "/knead/mesh/nodes_m"
+    std::string path;  ///< "/knead/mesh/nodes_m"
     bool is_group = false;
     std::string type;                    ///< "float64", "text"; empty for groups
     std::vector<std::uint64_t> extents;  ///< empty for groups
     std::string units;                   ///< empty for groups
     /// Bytes in the file, headers included: of the dataset, or of the group with everything below it.
     std::uint64_t bytes_on_disk = 0;
-    std::vector<std::pair<std::string, std::string>> attributes;  ///< name and value as text, `units` excepted
+    std::vector<std::pair<std::string, std::string>>
+        attributes;  ///< name and value as text, `units` excepted
 };
 
 /// What is in a file, without its kind's meaning.

@@ -7,7 +7,8 @@ namespace knead {
 
 /// Choices of the application that do not belong to the asset.
 struct SimulationConfig {
-    /// Which of the asset's tools the poses of step() move. The asset's other tools are not in this simulation.
+    /// Which of the asset's tools the poses of step() move. The asset's other tools are not in this
+    /// simulation.
     std::size_t tool = 0;
     double force_tolerance = 1e-4;    ///< relative bound aimed at for the force error of one step, (0, 0.1]
     int max_solver_iterations = 500;  ///< of the conjugate gradients, per solve, > 0

@@ -22,7 +22,8 @@ class KNEAD_RUNTIME_API Simulation {
   public:
     /// Reads and validates an asset, then prepares to step. Allocates everything that steps need.
     /// @return the simulation, or any error of read_asset(), or invalid_argument for a bad config
-    static Result<Simulation> load(const std::filesystem::path& asset_file, const SimulationConfig& config = {});
+    static Result<Simulation> load(const std::filesystem::path& asset_file,
+                                   const SimulationConfig& config = {});
     /// The same from memory; validates `asset`.
     static Result<Simulation> create(const Asset& asset, const SimulationConfig& config = {});
 

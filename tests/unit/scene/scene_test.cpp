@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "common/error.h"
+#include "scene/toml_table.h"
+
+namespace knead::tools {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kCube = R"(name = "cube"
+[mesh]
+kind = "cubes"
+size = "10cm"
+divisions = 4
+[material]
+uniform_pa = 22000
+[[level]]
+name = "fine"
+[[level]]
+name = "k3"
+bins = 2
+clusters = 3
+mesh = { divisions = 2 }
+[[held]]
+side = "bottom"
+[[tool]]
+name = "press"
+shape = "plate"
+contact = "bonded"
+touches = { side = "top" }
+)";
+
+/// Writes scene files into the test's own folder.
+class SceneFile : public testing::Test {
+  protected:
+    std::filesystem::path write(const std::string& text) {
+        const auto file = std::filesystem::path(testing::TempDir()) /
+                          (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".toml");
+        std::ofstream(file) << text;
+        return file;
+    }
+
+    std::string replaced(const std::string& from, const std::string& to) {
+        std::string text = kCube;
+        const auto at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        return text.replace(at, from.size(), to);
+    }
+
+    std::string error_of(const std::string& text) {
+        try {
+            (void)read_scene(write(text));
+        } catch (const ToolError& error) {
+            EXPECT_EQ(error.code(), ExitCode::bad_input);
+            return error.what();
+        }
+        return "no error";
+    }
+};
+
+TEST_F(SceneFile, Of_a_cube_is_read_with_units_and_defaults) {
+    const Scene scene = read_scene(write(kCube));
+    EXPECT_EQ(scene.name, "cube");
+    EXPECT_EQ(scene.mesh.size_m, std::vector<double>{0.1});
+    EXPECT_EQ(scene.levels.at(0).bins, 0u);
+    EXPECT_FALSE(scene.levels.at(0).mesh.has_value());
+    EXPECT_EQ(scene.levels.at(1).clusters, 3u);
+    EXPECT_EQ(scene.levels.at(1).restarts, 5u);
+    EXPECT_EQ(scene.tools.at(0).contact, ToolContact::bonded);
+    EXPECT_EQ(scene.tools.at(0).line, 17u);
+    EXPECT_FALSE(scene.needs_surface);
+}
+
+TEST_F(SceneFile, Level_mesh_inherits_what_it_does_not_say) {
+    const Scene scene = read_scene(write(kCube));
+    const MeshSource& coarse = scene.levels.at(1).mesh.value();
+    EXPECT_EQ(coarse.kind, "cubes");
+    EXPECT_EQ(coarse.divisions, std::vector<std::uint32_t>{2});
+    EXPECT_EQ(coarse.size_m, std::vector<double>{0.1});
+}
+
+TEST_F(SceneFile, With_an_unknown_key_is_refused_with_line_and_nearest_key) {
+    const std::string message = error_of(replaced("divisions = 4", "divisons = 4"));
+    EXPECT_THAT(message, HasSubstr(".toml:5: "));
+    EXPECT_THAT(error_of(replaced("clusters = 3", "clusters = 3\nclutsers = 3")),
+                HasSubstr(".toml:14: unknown key \"level[1].clutsers\"; did you mean \"level[1].clusters\"?"));
+}
+
+TEST_F(SceneFile, With_a_required_key_misspelt_names_the_misspelling) {
+    EXPECT_THAT(error_of(replaced("divisions = 4", "divisons = 4")), HasSubstr("divisons"));
+}
+
+TEST_F(SceneFile, With_bad_values_is_refused_with_the_key) {
+    EXPECT_THAT(error_of(replaced("clusters = 3", "clusters = 0")), HasSubstr("level[1].clusters must be from 1"));
+    EXPECT_THAT(error_of(replaced("bins = 2", "bins = -1")), HasSubstr("level[1].bins must be a whole number"));
+    EXPECT_THAT(error_of(replaced("\"10cm\"", "\"10 parsecs\"")), HasSubstr("parsecs"));
+    EXPECT_THAT(error_of(replaced("\"10cm\"", "-1")), HasSubstr("mesh.size must be positive"));
+    EXPECT_THAT(error_of(replaced("\"10cm\"", "nan")), HasSubstr("mesh.size must be a length"));
+    EXPECT_THAT(error_of(replaced("side = \"top\"", "side = \"tpo\"")), HasSubstr("did you mean \"top\"?"));
+    EXPECT_THAT(error_of(replaced("uniform_pa = 22000", "uniform_pa = 22000\nscenario = 1")),
+                HasSubstr("exactly one of"));
+    EXPECT_THAT(error_of(replaced("name = \"k3\"", "name = \"fine\"")), HasSubstr("stands already at line 8"));
+    EXPECT_THAT(error_of(replaced("name = \"cube\"", "name = \"../cube\"")), HasSubstr("letters, digits"));
+}
+
+TEST_F(SceneFile, That_is_not_toml_is_refused_with_the_line) {
+    EXPECT_THAT(error_of("name = \"cube\"\nmesh = [\n"), HasSubstr("not valid TOML"));
+    EXPECT_THAT(error_of("name = \"cube\"\n= 3\n"), HasSubstr(".toml:2: not valid TOML"));
+}
+
+TEST_F(SceneFile, That_is_missing_is_refused) {
+    EXPECT_THROW((void)read_scene("/nonexistent/scene.toml"), ToolError);
+}
+
+TEST_F(SceneFile, With_a_box_reads_both_corners_with_units) {
+    const Scene scene =
+        read_scene(write(replaced("side = \"top\"", "box = [[\"1cm\", 0, 0], [0.09, \"9cm\", 1]]")));
+    const auto box = scene.tools.at(0).touches.box_m.value();
+    EXPECT_EQ(box[0], (Point{0.01, 0, 0}));
+    EXPECT_EQ(box[1], (Point{0.09, 0.09, 1}));
+}
+
+TEST(NearestWord, Is_the_one_with_the_smallest_edit_distance_and_empty_when_none_is_near) {
+    EXPECT_EQ(nearest_word("clutsers", {"bins", "clusters", "name"}), "clusters");
+    EXPECT_EQ(nearest_word("xyzzy", {"bins", "clusters"}), "");
+}
+
+}  // namespace
+}  // namespace knead::tools
