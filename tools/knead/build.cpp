@@ -14,11 +14,13 @@
 namespace knead::tools {
 namespace {
 
-/// Exit codes of a tool mean the same for the driver; a signal or an unknown code is a bug.
+/// Exit codes of a tool mean the same for the driver, but for bad usage: the command line came from the
+/// scene. A signal or an unknown code is a bug.
 ExitCode exit_code_of(int status) {
+    if (status == static_cast<int>(ExitCode::bad_usage)) return ExitCode::bad_input;
     for (const ExitCode code : {ExitCode::bad_input, ExitCode::cannot_write, ExitCode::no_valid_result})
         if (status == static_cast<int>(code)) return code;
-    return ExitCode::bug;  // bad_usage too: the driver wrote the command line
+    return ExitCode::bug;
 }
 
 /// Runs one stage. @return the files that it read

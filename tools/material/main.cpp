@@ -81,8 +81,10 @@ ExitCode run(ToolContext& context, Arguments& arguments) {
     MaterialObject object{value_or_throw(read_tet_mesh(arguments.mesh)), {}};
     read_tables(context, arguments, inputs);
     arguments.request.seed = context.seed;
-    MaterialAnswer answer =
-        about(arguments.mesh, [&] { return make_material(object.mesh, arguments.request); });
+    const auto& blamed = !arguments.csv.empty()            ? arguments.csv
+                         : !arguments.region_table.empty() ? arguments.region_table
+                                                           : arguments.mesh;
+    MaterialAnswer answer = about(blamed, [&] { return make_material(object.mesh, arguments.request); });
     object.material = std::move(answer.material);
 
     Provenance provenance = context.provenance(answer.canonical_arguments);

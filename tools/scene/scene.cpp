@@ -18,7 +18,7 @@ constexpr double kUnitQuaternionTolerance = 1e-6;  // a hand-typed quaternion ha
 /// Names become parts of file names.
 std::string required_name(TomlTable& table, std::string_view key) {
     const auto name = table.text(key);
-    if (!name) table.fail(key, "is required");
+    if (!name) table.fail_missing(key);
     const bool plain = !name->empty() && std::all_of(name->begin(), name->end(), [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '_' || c == '-';
     });
@@ -54,7 +54,7 @@ std::vector<std::uint32_t> read_divisions(TomlTable& table) {
 }
 
 void require(const TomlTable& table, bool given, const std::string& key, const std::string& kind) {
-    if (!given) table.fail(key, fmt::format("is required for kind = \"{}\"", kind));
+    if (!given) table.fail_missing(key, fmt::format("is required for kind = \"{}\"", kind));
 }
 
 void check_mesh_source(TomlTable& table, const MeshSource& mesh) {
@@ -84,7 +84,7 @@ MeshSource read_mesh_source(const Scene& scene, TomlTable table, const MeshSourc
     } else {
         const auto kind =
             table.choice("kind", {"cubes", "box", "sphere", "cylinder", "ellipsoid", "outline", "file"});
-        if (!kind) table.fail("kind", "is required");
+        if (!kind) table.fail_missing("kind");
         mesh.kind = *kind;
     }
     if (auto divisions = read_divisions(table); !divisions.empty()) mesh.divisions = std::move(divisions);
@@ -117,6 +117,22 @@ MeshSource read_mesh_source(const Scene& scene, TomlTable table, const MeshSourc
     return mesh;
 }
 
+/// Refuses here, with the line, what knead-material would refuse later.
+double physical_value(const TomlTable& table, std::string_view key, double value) {
+    if (key == "poissons_ratio") {
+        if (!(value > -1 && value < 0.5))
+            table.fail(key, "must be greater than -1 and less than 0.5: at 0.5 a material is incompressible");
+    } else if (!(value > 0)) {
+        table.fail(key, "must be positive");
+    }
+    return value;
+}
+
+std::optional<double> optional_physical(TomlTable& table, std::string_view key) {
+    const auto value = table.number(key);
+    return value ? std::optional(physical_value(table, key, *value)) : std::nullopt;
+}
+
 RegionMaterial read_region(TomlTable table) {
     RegionMaterial region;
     const std::pair<const char*, double*> fields[] = {{"youngs_modulus_pa", &region.youngs_modulus_pa},
@@ -124,8 +140,8 @@ RegionMaterial read_region(TomlTable table) {
                                                       {"density_kg_per_m3", &region.density_kg_per_m3}};
     for (const auto& [key, target] : fields) {
         const auto value = table.number(key);
-        if (!value) table.fail(key, "is required");
-        *target = *value;
+        if (!value) table.fail_missing(key);
+        *target = physical_value(table, key, *value);
     }
     table.finish();
     return region;
@@ -133,7 +149,7 @@ RegionMaterial read_region(TomlTable table) {
 
 MaterialSource read_material_source(const Scene& scene, TomlTable table) {
     MaterialSource material;
-    material.uniform_pa = table.number("uniform_pa");
+    material.uniform_pa = optional_physical(table, "uniform_pa");
     if (const auto scenario = table.count("scenario")) {
         if (*scenario < 1 || *scenario > 9) table.fail("scenario", "must be from 1 to 9");
         material.scenario = static_cast<std::uint32_t>(*scenario);
@@ -150,9 +166,9 @@ MaterialSource read_material_source(const Scene& scene, TomlTable table) {
                      int(material.from_mesh) + int(!material.regions.empty());
     if (ways != 1)
         table.fail("", "needs exactly one of uniform_pa, scenario, expression_pa, csv, from_mesh, regions");
-    material.poissons_ratio = table.number("poissons_ratio");
-    material.density_kg_per_m3 = table.number("density_kg_per_m3");
-    material.total_mass_kg = table.number("total_mass_kg");
+    material.poissons_ratio = optional_physical(table, "poissons_ratio");
+    material.density_kg_per_m3 = optional_physical(table, "density_kg_per_m3");
+    material.total_mass_kg = optional_physical(table, "total_mass_kg");
     if (const auto seed = table.count("seed")) material.seed = *seed;
     table.finish();
     return material;
@@ -160,7 +176,7 @@ MaterialSource read_material_source(const Scene& scene, TomlTable table) {
 
 std::uint32_t required_count(TomlTable& table, std::string_view key) {
     const auto value = table.count(key);
-    if (!value) table.fail(key, "is required beside bins");
+    if (!value) table.fail_missing(key, "is required beside bins");
     if (*value < 1 || *value > 1'000'000) table.fail(key, "must be from 1 to 1,000,000");
     return static_cast<std::uint32_t>(*value);
 }
@@ -222,11 +238,11 @@ Selection read_selection(TomlTable& table, const std::string& scene_key) {
 
 void read_shape(TomlTable& table, SceneTool& tool) {
     const auto shape = table.choice("shape", {"plate", "sphere"});
-    if (!shape) table.fail("shape", "is required");
+    if (!shape) table.fail_missing("shape");
     if (*shape == "sphere") {
         tool.shape = ToolShape::sphere;
         tool.radius_m = positive(table, "radius", table.length_m("radius"));
-        if (tool.radius_m == 0) table.fail("radius", "is required for a sphere");
+        if (tool.radius_m == 0) table.fail_missing("radius", "is required for a sphere");
         return;
     }
     if (const auto extents = table.lengths_m("half_extents"); !extents.empty()) {
@@ -242,7 +258,7 @@ SceneTool read_scene_tool(TomlTable table, std::size_t index) {
     tool.name = required_name(table, "name");
     read_shape(table, tool);
     const auto contact = table.choice("contact", {"bonded", "sticking", "frictionless"});
-    if (!contact) table.fail("contact", "is required");
+    if (!contact) table.fail_missing("contact");
     tool.contact = *contact == "bonded"     ? ToolContact::bonded
                    : *contact == "sticking" ? ToolContact::sticking
                                             : ToolContact::frictionless;
@@ -256,7 +272,7 @@ SceneTool read_scene_tool(TomlTable table, std::size_t index) {
         for (std::size_t i = 0; i < 4; ++i) tool.orientation_wxyz[i] = q[i] / norm;
     }
     auto touches = table.table("touches");
-    if (!touches) table.fail("touches", "is required: which part of the surface the tool may touch");
+    if (!touches) table.fail_missing("touches", "is required: which part of the surface the tool may touch");
     tool.touches = read_selection(*touches, fmt::format("tool[{}].touches", index));
     touches->finish();
     table.finish();
@@ -288,22 +304,22 @@ void require_unique_names(const std::vector<Item>& items, const std::string& fil
 
 void read_body(Scene& scene, TomlTable& root) {
     auto mesh = root.table("mesh");
-    if (!mesh) root.fail("mesh", "is required");
+    if (!mesh) root.fail_missing("mesh");
     scene.mesh_line = mesh->line();
     scene.mesh = read_mesh_source(scene, *mesh, nullptr);
     auto material = root.table("material");
-    if (!material) root.fail("material", "is required");
+    if (!material) root.fail_missing("material");
     scene.material_line = material->line();
     scene.material = read_material_source(scene, *material);
     for (TomlTable& table : root.tables("level")) scene.levels.push_back(read_level(scene, table));
-    if (scene.levels.empty()) root.fail("level", "is required: at least one [[level]]");
+    if (scene.levels.empty()) root.fail_missing("level", "is required: at least one [[level]]");
     for (TomlTable& table : root.tables("held")) {
         scene.held.push_back(read_selection(table, fmt::format("held[{}]", scene.held.size())));
         table.finish();
     }
     for (TomlTable& table : root.tables("tool"))
         scene.tools.push_back(read_scene_tool(table, scene.tools.size()));
-    if (scene.tools.empty()) root.fail("tool", "is required: at least one [[tool]]");
+    if (scene.tools.empty()) root.fail_missing("tool", "is required: at least one [[tool]]");
     if (auto simulation = root.table("simulation")) read_simulation(scene, *simulation);
     if (auto app = root.table("app")) {
         scene.needs_surface = app->flag("surface").value_or(false);

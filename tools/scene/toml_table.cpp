@@ -56,7 +56,8 @@ std::uint32_t TomlTable::line_of(std::string_view key) const {
 }
 
 std::string TomlTable::name_of(std::string_view key) const {
-    return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+    if (path_.empty() || key.empty()) return path_ + std::string(key);
+    return path_ + "." + std::string(key);
 }
 
 void TomlTable::fail(std::string_view key, const std::string& message) const {
@@ -180,13 +181,24 @@ std::vector<std::string> TomlTable::keys() const {
     return names;
 }
 
-void TomlTable::finish() const {
-    for (const auto& [key, node] : *table_) {
-        if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
-        const std::string near = nearest_word(key.str(), known_);
-        fail_input(fmt::format("{}:{}: unknown key \"{}\"{}", file_, key.source().begin.line, name_of(key.str()),
-                               near.empty() ? "" : "; did you mean \"" + name_of(near) + "\"?"));
+void TomlTable::fail_unknown(const toml::key& key, const std::string& near) const {
+    fail_input(fmt::format("{}:{}: unknown key \"{}\"{}", file_, key.source().begin.line, name_of(key.str()),
+                           near.empty() ? "" : "; did you mean \"" + name_of(near) + "\"?"));
+}
+
+void TomlTable::fail_missing(std::string_view key, const std::string& message) const {
+    for (const auto& [present, node] : *table_) {
+        const bool known = std::find(known_.begin(), known_.end(), present.str()) != known_.end();
+        if (!known && !nearest_word(present.str(), {std::string(key)}).empty())
+            fail_unknown(present, std::string(key));
     }
+    fail(key, message);
+}
+
+void TomlTable::finish() const {
+    for (const auto& [key, node] : *table_)
+        if (std::find(known_.begin(), known_.end(), key.str()) == known_.end())
+            fail_unknown(key, nearest_word(key.str(), known_));
 }
 
 }  // namespace knead::tools

@@ -46,10 +46,13 @@ class TomlTable {
     /// Refuses keys that were never asked for.
     void finish() const;
 
+    /// Refuses the table because `key` is not there; names a misspelling of it if there is one.
+    [[noreturn]] void fail_missing(std::string_view key, const std::string& message = "is required") const;
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;
     [[nodiscard]] std::string name_of(std::string_view key) const;
 
   private:
+    [[noreturn]] void fail_unknown(const toml::key& key, const std::string& near) const;
     const toml::node* find(std::string_view key);
     double length_of(const toml::node& node, std::string_view key) const;
 

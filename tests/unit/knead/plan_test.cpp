@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "common/error.h"
@@ -58,9 +59,12 @@ TEST(Plan, Makes_every_stage_file_before_it_is_read_and_no_file_twice) {
     const Plan plan = plan_build(scene_with_levels(), {}, "out");
     std::set<std::string> made;
     for (const Stage& stage : plan.stages) {
-        for (const std::string& argument : stage.arguments)
-            if (argument.rfind("out/", 0) == 0 && argument != stage.output.string())
+        for (const std::string& argument : stage.arguments) {
+            const bool is_input = argument.rfind("out/", 0) == 0 && argument != stage.output.string();
+            if (is_input) {
                 EXPECT_EQ(made.count(argument), 1u) << stage.tool << " reads " << argument;
+            }
+        }
         EXPECT_TRUE(made.insert(stage.output.string()).second) << stage.output;
     }
 }
