@@ -58,7 +58,7 @@ void warn_about(const ToolContext& context, const std::filesystem::path& mesh,
                 const std::vector<std::uint32_t>& ids, const char* what) {
     if (ids.empty()) return;
     const std::span<const std::uint32_t> first(ids.data(), std::min(ids.size(), kIdsShown));
-    context.warn(fmt::format("{}: {} tetrahedra {} (counted from 0: {}{})", mesh.string(), ids.size(), what,
+    context.tell(fmt::format("{}: {} tetrahedra {} (counted from 0: {}{})", mesh.string(), ids.size(), what,
                              fmt::join(first, ", "), ids.size() > kIdsShown ? ", ..." : ""));
 }
 

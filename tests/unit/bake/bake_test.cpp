@@ -98,7 +98,7 @@ TEST(Bake, Lets_a_tool_touch_free_surface_nodes_only) {
     scene.tools[0].touches.side = "all";
     const Asset asset = bake(scene, scene.levels[0], two_halves());
     const auto& nodes = asset.tools[0].nodes;
-    EXPECT_EQ(nodes.size(), 64u - 16u - 4u);  // without the held bottom and the four inner free nodes
+    EXPECT_EQ(nodes.size(), 64u - 16u - 8u);  // without the held bottom and the 2 x 2 x 2 inner nodes
     EXPECT_TRUE(std::is_sorted(nodes.begin(), nodes.end()));
     EXPECT_LT(nodes.back(), asset.free_node_count);
 }
