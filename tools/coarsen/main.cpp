@@ -54,7 +54,7 @@ nlohmann::ordered_json to_json(const std::vector<std::uint32_t>& ids) {
     return {{"count", ids.size()}, {"first_ids", std::vector<std::uint32_t>(first.begin(), first.end())}};
 }
 
-void warn_about(const ToolContext& context, const std::filesystem::path& mesh,
+void tell_about(const ToolContext& context, const std::filesystem::path& mesh,
                 const std::vector<std::uint32_t>& ids, const char* what) {
     if (ids.empty()) return;
     const std::span<const std::uint32_t> first(ids.data(), std::min(ids.size(), kIdsShown));
@@ -69,9 +69,9 @@ void report(const ToolContext& context, const Arguments& arguments, const Coarse
         fmt::format("{}: {} tetrahedra; {:.4f} % of the coarse and {:.4f} % of the fine volume covered",
                     arguments.output.string(), result.material.youngs_modulus_pa.size(),
                     100 * coverage.coarse_share, 100 * coverage.fine_share));
-    warn_about(context, arguments.coarse, coverage.coarse_missing, "miss more than 1 % of their volume");
-    warn_about(context, arguments.fine, coverage.fine_missing, "miss more than 1 % of their volume");
-    warn_about(context, arguments.coarse, coverage.coarse_uncovered,
+    tell_about(context, arguments.coarse, coverage.coarse_missing, "miss more than 1 % of their volume");
+    tell_about(context, arguments.fine, coverage.fine_missing, "miss more than 1 % of their volume");
+    tell_about(context, arguments.coarse, coverage.coarse_uncovered,
                "are not covered at all and take the nearest fine tetrahedron's values");
     const nlohmann::ordered_json report{
         {"tetrahedra", result.material.youngs_modulus_pa.size()},
