@@ -18,20 +18,22 @@ namespace {
 
 constexpr double kDepthM = 2.5e-3;  // 10 % of the steak's thickness
 constexpr double kRampS = 1.0;
-constexpr double kHoldS = 0.5;      // after it the force has settled
+constexpr double kHoldS = 0.5;  // after it the force has settled
 constexpr double kStepS = 1e-3;
-constexpr double kJnd = 0.10;       // just noticeable difference of a force [HHC*08 in the paper]
+constexpr double kJnd = 0.10;  // just noticeable difference of a force [HHC*08 in the paper]
 
 struct Press {
     std::string level;
     std::filesystem::path file;
     std::size_t tetrahedra = 0;
-    std::vector<double> force_n;   ///< up, on the tool, after each step
+    std::vector<double> force_n;  ///< up, on the tool, after each step
     std::vector<double> step_us;
-    std::uint32_t status = 0;      ///< all bits that any step set
+    std::uint32_t status = 0;  ///< all bits that any step set
 };
 
-double depth_at(double time_s) { return kDepthM * std::min(1.0, time_s / kRampS); }
+double depth_at(double time_s) {
+    return kDepthM * std::min(1.0, time_s / kRampS);
+}
 
 void show_progress(const std::string& level, std::size_t step, std::size_t steps) {
     if (isatty(STDERR_FILENO) == 0 || step % 50 != 0) return;
@@ -63,13 +65,15 @@ knead::Result<Press> press(const std::string& level, const std::filesystem::path
 }
 
 double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                     values.end());
     return values[values.size() / 2];
 }
 
 double mean(const std::vector<double>& values) {
     double sum = 0;
-    for (const double value : values) sum += value;
+    for (const double value : values)
+        sum += value;
     return sum / static_cast<double>(values.size());
 }
 
@@ -79,20 +83,23 @@ void print_row(const Press& press, const Press& reference) {
     std::string verdict = "reference";
     if (&press != &reference) verdict = std::abs(error) <= kJnd ? "inside" : "outside";
     if (press.status != knead::kStepOk) verdict += " (status " + std::to_string(press.status) + ")";
-    std::printf("%-12s %10zu %9.3f N %+8.1f %%   %-10s %9.0f %10.0f Hz %9ju\n", press.level.c_str(), press.tetrahedra,
-                force, 100 * error, verdict.c_str(), median(press.step_us), 1e6 / mean(press.step_us),
+    std::printf("%-12s %10zu %9.3f N %+8.1f %%   %-10s %9.0f %10.0f Hz %9ju\n", press.level.c_str(),
+                press.tetrahedra, force, 100 * error, verdict.c_str(), median(press.step_us),
+                1e6 / mean(press.step_us),
                 static_cast<std::uintmax_t>(std::filesystem::file_size(press.file)));
 }
 
 void write_curves(const std::filesystem::path& file, const std::vector<Press>& presses) {
     std::ofstream csv(file);
     csv << "time_s,depth_m";
-    for (const Press& press : presses) csv << ',' << press.level << "_n";
+    for (const Press& press : presses)
+        csv << ',' << press.level << "_n";
     csv << '\n';
     for (std::size_t i = 0; i < presses.front().force_n.size(); ++i) {
         const double time_s = static_cast<double>(i + 1) * kStepS;
         csv << time_s << ',' << depth_at(time_s);
-        for (const Press& press : presses) csv << ',' << press.force_n[i];
+        for (const Press& press : presses)
+            csv << ',' << press.force_n[i];
         csv << '\n';
     }
 }
@@ -101,7 +108,8 @@ void write_curves(const std::filesystem::path& file, const std::vector<Press>& p
 
 int main(int argc, char** argv) {
     if (argc < 4) {
-        std::fprintf(stderr, "usage: steak_press FOLDER SCENE LEVEL...   (the first level is the reference)\n");
+        std::fprintf(stderr,
+                     "usage: steak_press FOLDER SCENE LEVEL...   (the first level is the reference)\n");
         return 2;
     }
     const std::filesystem::path folder = argv[1];
@@ -116,13 +124,15 @@ int main(int argc, char** argv) {
         presses.push_back(std::move(result).value());
     }
 
-    std::printf("%s pressed %.1f mm over %.0f s and held %.1f s, steps of %.0f ms, on one core\n\n", scene.c_str(),
-                kDepthM * 1e3, kRampS, kHoldS, kStepS * 1e3);
-    std::printf("%-12s %10s %11s %10s   %-10s %9s %13s %9s\n", "level", "tetrahedra", "force", "error", "10 % JND",
-                "us/step", "rate", "bytes");
-    for (const Press& press : presses) print_row(press, presses.front());
+    std::printf("%s pressed %.1f mm over %.0f s and held %.1f s, steps of %.0f ms, on one core\n\n",
+                scene.c_str(), kDepthM * 1e3, kRampS, kHoldS, kStepS * 1e3);
+    std::printf("%-12s %10s %11s %10s   %-10s %9s %13s %9s\n", "level", "tetrahedra", "force", "error",
+                "10 % JND", "us/step", "rate", "bytes");
+    for (const Press& press : presses)
+        print_row(press, presses.front());
     write_curves(folder / (scene + ".press.csv"), presses);
-    std::printf("\nThe error is against the fine mesh with its raw elasticities (%s). us/step is the median.\n",
-                presses.front().level.c_str());
+    std::printf(
+        "\nThe error is against the fine mesh with its raw elasticities (%s). us/step is the median.\n",
+        presses.front().level.c_str());
     return 0;
 }

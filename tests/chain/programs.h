@@ -15,7 +15,8 @@ namespace knead::test {
 /// A fresh folder named after the running test.
 inline std::filesystem::path fresh_folder() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    const auto folder = std::filesystem::path(testing::TempDir()) / ("knead_chain_" + std::string(info->name()));
+    const auto folder =
+        std::filesystem::path(testing::TempDir()) / ("knead_chain_" + std::string(info->name()));
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     return folder;
@@ -35,7 +36,8 @@ inline int run_program(const std::string& command, const std::filesystem::path& 
 
 inline std::size_t occurrences(const std::string& text, const std::string& word) {
     std::size_t count = 0;
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+        ++count;
     return count;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A real object made by others: VegaFEM's turtle, two materials with different nu and a contrast of 100
-// (J. Quandt, J. Barbic; CC BY-SA 3.0). The file has no unit: we call it centimetres. Not part of this repository: KNEAD_TURTLE names its .veg file.
+// (J. Quandt, J. Barbic; CC BY-SA 3.0). The file has no unit: we call it centimetres. Not part of this
+// repository: KNEAD_TURTLE names its .veg file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@
 namespace knead::test {
 namespace {
 
-constexpr std::uint32_t kCells = 6;       // along each side of the box around the turtle
+constexpr std::uint32_t kCells = 6;  // along each side of the box around the turtle
 
 std::filesystem::path turtle_file() {
     const char* given = std::getenv("KNEAD_TURTLE");
@@ -27,7 +28,8 @@ std::filesystem::path turtle_file() {
 TetMesh cells_around(const TetMesh& fine) {
     Point low = fine.nodes_m[0], high = low;
     for (const Point& node : fine.nodes_m)
-        for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], node[a]), high[a] = std::max(high[a], node[a]);
+        for (std::size_t a = 0; a < 3; ++a)
+            low[a] = std::min(low[a], node[a]), high[a] = std::max(high[a], node[a]);
     const Point size{high[0] - low[0], high[1] - low[1], high[2] - low[2]};
     TetMesh grid = kuhn_box(kCells, kCells, kCells, size);
     std::set<std::size_t> wanted;
@@ -35,7 +37,9 @@ TetMesh cells_around(const TetMesh& fine) {
         const Point centre = barycentre_m(fine, i);
         std::size_t cell = 0;
         for (const std::size_t a : {2, 1, 0})
-            cell = cell * kCells + std::min<std::size_t>(kCells - 1, static_cast<std::size_t>((centre[a] - low[a]) / size[a] * kCells));
+            cell = cell * kCells +
+                   std::min<std::size_t>(kCells - 1,
+                                         static_cast<std::size_t>((centre[a] - low[a]) / size[a] * kCells));
         wanted.insert(cell);
     }
     TetMesh kept;
@@ -58,9 +62,13 @@ TetMesh cells_around(const TetMesh& fine) {
 
 std::string scene_text(const std::filesystem::path& folder) {
     return "name = \"turtle\"\n"
-           "[mesh]\nkind = \"file\"\nlength_unit = \"cm\"\nfile = \"" + turtle_file().string() + "\"\n"
+           "[mesh]\nkind = \"file\"\nlength_unit = \"cm\"\nfile = \"" +
+           turtle_file().string() +
+           "\"\n"
            "[material]\nfrom_mesh = true\n"
-           "[[level]]\nname = \"coarse\"\nmesh = { file = \"" + (folder / "coarse.msh").string() + "\", length_unit = \"m\" }\n"
+           "[[level]]\nname = \"coarse\"\nmesh = { file = \"" +
+           (folder / "coarse.msh").string() +
+           "\", length_unit = \"m\" }\n"
            "[[held]]\nside = \"bottom\"\n"
            "[[tool]]\nname = \"finger\"\nshape = \"sphere\"\nradius = \"5mm\"\ncontact = \"frictionless\"\n"
            "touches = { side = \"all\" }\n";
@@ -90,7 +98,8 @@ class Turtle : public testing::Test {
   protected:
     void SetUp() override {
         if (!std::filesystem::exists(turtle_file()))
-            GTEST_SKIP() << "the turtle is not here (" << turtle_file() << "); set KNEAD_TURTLE to its .veg file";
+            GTEST_SKIP() << "the turtle is not here (" << turtle_file()
+                         << "); set KNEAD_TURTLE to its .veg file";
         folder_ = fresh_folder();
     }
     void require_run(const std::string& command) {

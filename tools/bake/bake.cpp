@@ -39,7 +39,8 @@ std::vector<std::uint32_t> movable_tetrahedra(const TetMesh& mesh, const std::ve
     std::vector<std::uint32_t> movable;
     for (std::uint32_t i = 0; i < mesh.tetrahedra.size(); ++i) {
         const Tetrahedron& t = mesh.tetrahedra[i];
-        if (!std::all_of(t.begin(), t.end(), [&](std::uint32_t node) { return held[node]; })) movable.push_back(i);
+        if (!std::all_of(t.begin(), t.end(), [&](std::uint32_t node) { return held[node]; }))
+            movable.push_back(i);
     }
     return movable;
 }
@@ -53,10 +54,12 @@ std::vector<std::uint32_t> place_nodes(const TetMesh& mesh, const std::vector<st
     std::vector<bool> used(mesh.nodes_m.size(), false);
     for (const std::uint32_t i : movable) {
         tetrahedra.push_back(mesh.tetrahedra[i]);
-        for (const std::uint32_t node : mesh.tetrahedra[i]) used[node] = true;
+        for (const std::uint32_t node : mesh.tetrahedra[i])
+            used[node] = true;
     }
     std::vector<bool> free(mesh.nodes_m.size());
-    for (std::size_t i = 0; i < free.size(); ++i) free[i] = used[i] && !held[i];
+    for (std::size_t i = 0; i < free.size(); ++i)
+        free[i] = used[i] && !held[i];
     std::vector<std::uint32_t> order = nested_dissection_order(tetrahedra, free);
     asset.free_node_count = static_cast<std::uint32_t>(order.size());
     for (std::uint32_t i = 0; i < used.size(); ++i)
@@ -84,17 +87,20 @@ void place_tetrahedra(const MaterialObject& object, std::vector<std::uint32_t> m
 
     const Material& material = object.material;
     const auto values_of = [&](std::uint32_t i) {
-        return std::tuple(material.youngs_modulus_pa[i], material.poissons_ratio[i], material.density_kg_per_m3[i]);
+        return std::tuple(material.youngs_modulus_pa[i], material.poissons_ratio[i],
+                          material.density_kg_per_m3[i]);
     };
     std::map<std::tuple<double, double, double>, std::uint32_t> palette;
-    for (const std::uint32_t i : movable) palette.emplace(values_of(i), 0);
+    for (const std::uint32_t i : movable)
+        palette.emplace(values_of(i), 0);
     for (auto& [values, index] : palette) {
         index = static_cast<std::uint32_t>(asset.palette.size());
         asset.palette.push_back({std::get<0>(values), std::get<1>(values), std::get<2>(values)});
     }
     for (const std::uint32_t i : movable) {
         Tetrahedron t = object.mesh.tetrahedra[i];
-        for (std::uint32_t& node : t) node = asset_node[node];
+        for (std::uint32_t& node : t)
+            node = asset_node[node];
         asset.tetrahedra.push_back(t);
         asset.palette_index.push_back(palette.at(values_of(i)));
     }
@@ -127,8 +133,10 @@ ToolSet place_tool(const Scene& scene, const SceneTool& tool, const TetMesh& mes
     set.rest_orientation_wxyz = tool.orientation_wxyz;
     const std::vector<bool> selected = select_nodes(mesh, tool.touches);
     for (std::size_t i = 0; i < selected.size(); ++i)
-        if (selected[i] && on_surface[i] && asset_node[i] < asset.free_node_count) set.nodes.push_back(asset_node[i]);
-    if (set.nodes.empty()) fail_selection(scene, tool.touches, "selects no node of the surface that can move");
+        if (selected[i] && on_surface[i] && asset_node[i] < asset.free_node_count)
+            set.nodes.push_back(asset_node[i]);
+    if (set.nodes.empty())
+        fail_selection(scene, tool.touches, "selects no node of the surface that can move");
     std::sort(set.nodes.begin(), set.nodes.end());
     set.rest_position_m = tool.position_m.value_or(touching_position(tool, asset.nodes_m, set.nodes));
     return set;
@@ -137,7 +145,8 @@ ToolSet place_tool(const Scene& scene, const SceneTool& tool, const TetMesh& mes
 std::vector<bool> surface_nodes(const TetMesh& mesh, const std::vector<Triangle>& surface) {
     std::vector<bool> on_surface(mesh.nodes_m.size(), false);
     for (const Triangle& triangle : surface)
-        for (const std::uint32_t node : triangle) on_surface[node] = true;
+        for (const std::uint32_t node : triangle)
+            on_surface[node] = true;
     return on_surface;
 }
 
@@ -153,7 +162,8 @@ void note_requests(const Scene& scene, const Level& level, Asset& asset) {
         asset.requests.push_back({"/knead/asset/gravity", "simulation.gravity_m_per_s2", scene.gravity_line});
     if (scene.damping_per_s != 0)
         asset.requests.push_back({"/knead/asset/damping", "simulation.damping_per_s", scene.damping_line});
-    if (scene.needs_surface) asset.requests.push_back({"/knead/asset/surface", "app.surface", scene.surface_line});
+    if (scene.needs_surface)
+        asset.requests.push_back({"/knead/asset/surface", "app.surface", scene.surface_line});
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ std::string report(const Asset& asset, double seconds) {
     json["free_nodes"] = asset.free_node_count;
     json["tetrahedra"] = asset.tetrahedra.size();
     json["palette"] = asset.palette.size();
-    for (const ToolSet& tool : asset.tools) json["tools"][tool.name] = tool.nodes.size();
+    for (const ToolSet& tool : asset.tools)
+        json["tools"][tool.name] = tool.nodes.size();
     json["seconds"] = seconds;
     return json.dump(2) + "\n";
 }
@@ -54,12 +55,14 @@ ExitCode run(ToolContext& context, const Options& options) {
     const Asset asset = bake(scene, level, object);
 
     Provenance provenance = context.provenance({"--level=" + options.level});
-    provenance.inputs = {{"scene", value_or_throw(sha256_of_file(options.scene))}, {"object", header.content_hash}};
+    provenance.inputs = {{"scene", value_or_throw(sha256_of_file(options.scene))},
+                         {"object", header.content_hash}};
     value_or_throw(write_asset(options.output, asset, provenance));
 
     context.detail(fmt::format("{} of {} tetrahedra, {} free nodes, {} elasticities", asset.tetrahedra.size(),
                                object.mesh.tetrahedra.size(), asset.free_node_count, asset.palette.size()));
-    context.write_report(report(asset, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
+    context.write_report(
+        report(asset, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
     return ExitCode::done;
 }
 
@@ -72,6 +75,7 @@ int main(int argc, char** argv) {
     info.purpose = "write the asset of one level of a scene: only what the scene needs.";
     info.example = "knead-bake steak.toml steak.k3.coarse.hdf --level k3 -o steak.k3.hdf";
     info.libraries = {"METIS " KNEAD_METIS_VERSION};
-    return run_tool(argc, argv, info, [&](CLI::App& app) { declare(app, options); },
-                    [&](ToolContext& context) { return run(context, options); });
+    return run_tool(
+        argc, argv, info, [&](CLI::App& app) { declare(app, options); },
+        [&](ToolContext& context) { return run(context, options); });
 }

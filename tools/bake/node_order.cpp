@@ -34,7 +34,8 @@ Graph node_graph(const std::vector<Tetrahedron>& tetrahedra, const std::vector<b
         ++graph.offsets[static_cast<std::size_t>(a) + 1];
         graph.neighbours.push_back(b);
     }
-    for (std::size_t i = 0; i < free_count; ++i) graph.offsets[i + 1] += graph.offsets[i];
+    for (std::size_t i = 0; i < free_count; ++i)
+        graph.offsets[i + 1] += graph.offsets[i];
     return graph;
 }
 
@@ -66,7 +67,8 @@ std::vector<std::uint32_t> nested_dissection_order(const std::vector<Tetrahedron
     if (status != METIS_OK) throw std::runtime_error("METIS_NodeND failed with " + std::to_string(status));
     std::vector<std::uint32_t> ordered;
     ordered.reserve(order.size());
-    for (const idx_t i : order) ordered.push_back(free_nodes[static_cast<std::size_t>(i)]);
+    for (const idx_t i : order)
+        ordered.push_back(free_nodes[static_cast<std::size_t>(i)]);
     return ordered;
 }
 

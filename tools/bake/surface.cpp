@@ -29,19 +29,22 @@ std::vector<Triangle> boundary_triangles(const std::vector<Tetrahedron>& tetrahe
             faces.push_back({sorted, corners, faces.size()});
         }
     }
-    std::sort(faces.begin(), faces.end(),
-              [](const Face& a, const Face& b) { return std::tie(a.sorted, a.place) < std::tie(b.sorted, b.place); });
+    std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+        return std::tie(a.sorted, a.place) < std::tie(b.sorted, b.place);
+    });
     std::vector<Face> lonely;
     for (std::size_t i = 0; i < faces.size();) {
         std::size_t end = i + 1;
-        while (end < faces.size() && faces[end].sorted == faces[i].sorted) ++end;
+        while (end < faces.size() && faces[end].sorted == faces[i].sorted)
+            ++end;
         if (end == i + 1) lonely.push_back(faces[i]);
         i = end;
     }
     std::sort(lonely.begin(), lonely.end(), [](const Face& a, const Face& b) { return a.place < b.place; });
     std::vector<Triangle> triangles;
     triangles.reserve(lonely.size());
-    for (const Face& face : lonely) triangles.push_back(face.corners);
+    for (const Face& face : lonely)
+        triangles.push_back(face.corners);
     return triangles;
 }
 

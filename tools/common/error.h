@@ -21,8 +21,12 @@ class ToolError : public std::runtime_error {
     ExitCode code_;
 };
 
-[[noreturn]] inline void fail_usage(const std::string& message) { throw ToolError(ExitCode::bad_usage, message); }
-[[noreturn]] inline void fail_input(const std::string& message) { throw ToolError(ExitCode::bad_input, message); }
+[[noreturn]] inline void fail_usage(const std::string& message) {
+    throw ToolError(ExitCode::bad_usage, message);
+}
+[[noreturn]] inline void fail_input(const std::string& message) {
+    throw ToolError(ExitCode::bad_input, message);
+}
 [[noreturn]] inline void fail_result(const std::string& message) {
     throw ToolError(ExitCode::no_valid_result, message);
 }

@@ -14,8 +14,8 @@ void Progress::show(std::size_t done, std::size_t total, std::string_view what) 
     if (!on_terminal_) return;
     constexpr std::size_t kWidth = 24;
     const std::size_t filled = total == 0 ? 0 : std::min(kWidth, kWidth * done / total);
-    std::cerr << "\r\033[K[" << std::string(filled, '#') << std::string(kWidth - filled, '.') << "] " << done << '/'
-              << total << ' ' << what << std::flush;
+    std::cerr << "\r\033[K[" << std::string(filled, '#') << std::string(kWidth - filled, '.') << "] " << done
+              << '/' << total << ' ' << what << std::flush;
     shown_ = true;
 }
 

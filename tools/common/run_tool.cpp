@@ -13,12 +13,14 @@ namespace knead::tools {
 namespace {
 
 constexpr const char* kExitStatus =
-    "Exit status: 0 done, 1 the answer is no, 2 bad usage, 3 bad input, 4 cannot write, 5 no valid result, 70 bug";
+    "Exit status: 0 done, 1 the answer is no, 2 bad usage, 3 bad input, 4 cannot write, 5 no valid result, "
+    "70 bug";
 
 std::string version_text(const ToolInfo& info) {
     std::string text = info.name + " " + kLibraryVersion + " (file format " +
                        std::to_string(kFormatVersion[0]) + "." + std::to_string(kFormatVersion[1]) + ")";
-    for (const std::string& library : info.libraries) text += "\n  " + library;
+    for (const std::string& library : info.libraries)
+        text += "\n  " + library;
     return text;
 }
 
@@ -85,7 +87,8 @@ void ToolContext::write_report(const std::string& json) const {
 void ToolContext::write_depfile() const {
     if (depfile.empty()) return;
     std::string text = escaped_for_make(output_) + ":";
-    for (const auto& input : inputs_) text += " \\\n  " + escaped_for_make(input);
+    for (const auto& input : inputs_)
+        text += " \\\n  " + escaped_for_make(input);
     value_or_throw(write_text_file(depfile, text + "\n"));
 }
 
@@ -123,7 +126,8 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<vo
     } catch (const std::bad_alloc&) {
         return report_error(info, ExitCode::no_valid_result, "not enough memory");
     } catch (const std::exception& error) {
-        return report_error(info, ExitCode::bug, std::string("internal error, please report it: ") + error.what());
+        return report_error(info, ExitCode::bug,
+                            std::string("internal error, please report it: ") + error.what());
     } catch (...) {
         return report_error(info, ExitCode::bug, "internal error, please report it");
     }

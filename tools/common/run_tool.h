@@ -17,14 +17,14 @@ namespace knead::tools {
 
 /// What run_tool() needs to know about a program.
 struct ToolInfo {
-    std::string name;     ///< "knead-overlap"
-    std::string purpose;  ///< one line of --help
-    std::string example;  ///< one line of --help
+    std::string name;                    ///< "knead-overlap"
+    std::string purpose;                 ///< one line of --help
+    std::string example;                 ///< one line of --help
     std::vector<std::string> libraries;  ///< versions for --version: "CGAL 5.5.1"
-    bool writes_report = true;   ///< offers --report FILE
-    bool writes_depfile = true;  ///< offers --depfile FILE
-    bool uses_threads = false;   ///< offers -j,--threads N
-    bool uses_seed = false;      ///< offers --seed N
+    bool writes_report = true;           ///< offers --report FILE
+    bool writes_depfile = true;          ///< offers --depfile FILE
+    bool uses_threads = false;           ///< offers -j,--threads N
+    bool uses_seed = false;              ///< offers --seed N
 };
 
 /// What the common options said, and the way to speak to the user. One per run.
@@ -34,8 +34,8 @@ class ToolContext {
     std::uint64_t seed = 1;
     bool quiet = false;
     bool verbose = false;
-    std::filesystem::path report_file;   ///< empty: none wanted
-    std::filesystem::path depfile;       ///< empty: none wanted
+    std::filesystem::path report_file;  ///< empty: none wanted
+    std::filesystem::path depfile;      ///< empty: none wanted
 
     explicit ToolContext(const ToolInfo& info) : info_(info) {}
 

@@ -31,12 +31,14 @@ std::vector<std::filesystem::path> run_stage(const Stage& stage, const std::file
     std::vector<std::string> arguments = stage.arguments;
     arguments.insert(arguments.end(), {"--depfile", depfile.string()});
     if (stage.threaded) arguments.insert(arguments.end(), {"--threads", std::to_string(options.threads)});
-    if (options.verbose) arguments.emplace_back("--verbose");
-    else arguments.emplace_back("--quiet");
+    if (options.verbose)
+        arguments.emplace_back("--verbose");
+    else
+        arguments.emplace_back("--quiet");
     const int status = run_child(program, arguments, listener.stderr_text);
     if (status != 0)
-        throw ToolError(exit_code_of(status), fmt::format("{} failed with exit code {} while making {}", stage.tool,
-                                                          status, stage.output.string()));
+        throw ToolError(exit_code_of(status), fmt::format("{} failed with exit code {} while making {}",
+                                                          stage.tool, status, stage.output.string()));
     auto files = read_depfile(depfile);
     std::error_code ignored;
     std::filesystem::remove(depfile, ignored);
@@ -47,7 +49,8 @@ void collect_sources(const Plan& plan, const std::vector<std::filesystem::path>&
     for (const auto& file : files) {
         const bool made_here = std::any_of(plan.stages.begin(), plan.stages.end(),
                                            [&](const Stage& stage) { return stage.output == file; });
-        if (!made_here && std::find(result.sources.begin(), result.sources.end(), file) == result.sources.end())
+        if (!made_here &&
+            std::find(result.sources.begin(), result.sources.end(), file) == result.sources.end())
             result.sources.push_back(file);
     }
 }

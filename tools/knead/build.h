@@ -22,7 +22,7 @@ struct StageOutcome {
 struct BuildListener {
     std::function<void(const Stage&, std::size_t index)> begins;  ///< before a stage that has to run
     std::function<void(const StageOutcome&)> ended;
-    std::function<void(std::string_view)> stderr_text;            ///< of the tools, as it comes
+    std::function<void(std::string_view)> stderr_text;  ///< of the tools, as it comes
 };
 
 struct BuildOptions {

@@ -54,8 +54,9 @@ void BuildState::save() const {
     json["schema"] = kSchema;
     json["stages"] = nlohmann::ordered_json::object();
     for (const auto& [output, entry] : entries_)
-        json["stages"][output] = {
-            {"command", entry.command_hash}, {"output", entry.output_hash}, {"dependencies", entry.dependencies}};
+        json["stages"][output] = {{"command", entry.command_hash},
+                                  {"output", entry.output_hash},
+                                  {"dependencies", entry.dependencies}};
     value_or_throw(write_text_file(file_, json.dump(1) + "\n"));
 }
 
@@ -63,7 +64,8 @@ std::string BuildState::command_hash(const Stage& stage, const std::filesystem::
     std::string& program_hash = programs_[program];
     if (program_hash.empty()) program_hash = value_or_throw(sha256_of_file(program));
     std::string command = program_hash;
-    for (const std::string& argument : stage.arguments) command += '\0' + argument;
+    for (const std::string& argument : stage.arguments)
+        command += '\0' + argument;
     return sha256_of(command);
 }
 
@@ -83,7 +85,8 @@ void BuildState::record(const Stage& stage, const std::filesystem::path& program
     Entry entry;
     entry.command_hash = command_hash(stage, program);
     entry.output_hash = hash_of(stage.output);
-    for (const auto& file : dependencies) entry.dependencies.emplace_back(file.string(), hash_of(file));
+    for (const auto& file : dependencies)
+        entry.dependencies.emplace_back(file.string(), hash_of(file));
     entries_[stage.output.filename().string()] = std::move(entry);
 }
 
@@ -91,7 +94,8 @@ std::vector<std::filesystem::path> BuildState::dependencies(const Stage& stage) 
     std::vector<std::filesystem::path> files;
     const auto found = entries_.find(stage.output.filename().string());
     if (found != entries_.end())
-        for (const auto& [file, hash] : found->second.dependencies) files.emplace_back(file);
+        for (const auto& [file, hash] : found->second.dependencies)
+            files.emplace_back(file);
     return files;
 }
 
@@ -113,7 +117,8 @@ std::vector<std::filesystem::path> read_depfile(const std::filesystem::path& fil
             words.back() += c;
         }
     }
-    if (words.front().empty() || words.front().back() != ':') fail_input(file.string() + ": not a dependency file");
+    if (words.front().empty() || words.front().back() != ':')
+        fail_input(file.string() + ": not a dependency file");
     std::vector<std::filesystem::path> files;
     for (std::size_t i = 1; i < words.size(); ++i)
         if (!words[i].empty()) files.emplace_back(words[i]);

@@ -31,7 +31,7 @@ class BuildState {
 
   private:
     struct Entry {
-        std::string command_hash;  ///< of the program and its arguments
+        std::string command_hash;                                       ///< of the program and its arguments
         std::vector<std::pair<std::string, std::string>> dependencies;  ///< file, hash
         std::string output_hash;
     };
@@ -39,7 +39,7 @@ class BuildState {
     std::string command_hash(const Stage& stage, const std::filesystem::path& program);
 
     std::filesystem::path file_;
-    std::map<std::string, Entry> entries_;             ///< by the output's file name
+    std::map<std::string, Entry> entries_;                   ///< by the output's file name
     std::map<std::filesystem::path, std::string> programs_;  ///< hashes of the tools, each read once
 };
 

@@ -41,11 +41,13 @@ struct Pipe {
     }
 };
 
-pid_t spawn(const std::filesystem::path& program, const std::vector<std::string>& arguments, const Pipe& errors) {
+pid_t spawn(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+            const Pipe& errors) {
     std::vector<char*> argv;
     const std::string name = program.string();
     argv.push_back(const_cast<char*>(name.c_str()));  // posix_spawn's signature; it does not write to them
-    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    for (const std::string& argument : arguments)
+        argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
 
     posix_spawn_file_actions_t actions;

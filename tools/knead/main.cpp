@@ -29,9 +29,12 @@ void declare(CLI::App& app, Options& options) {
     CLI::App* build = app.add_subcommand("build", "run the tools that a scene needs, from mesh to assets");
     build->fallthrough();
     build->add_option("SCENE", options.scene, "scene file (TOML)")->required();
-    build->add_option("-o,--output", options.folder, "folder for everything that is made; created if missing")->required();
-    build->add_option("-l,--level", options.levels, "only this level; may be given again [all]")->type_name("NAME");
-    build->add_option("--asset", options.asset, "also put the asset here (with exactly one level)")->type_name("FILE");
+    build->add_option("-o,--output", options.folder, "folder for everything that is made; created if missing")
+        ->required();
+    build->add_option("-l,--level", options.levels, "only this level; may be given again [all]")
+        ->type_name("NAME");
+    build->add_option("--asset", options.asset, "also put the asset here (with exactly one level)")
+        ->type_name("FILE");
     build->add_flag("--force", options.force, "run every tool, also where its output is up to date");
     build->add_flag("--dry-run", options.dry_run, "print the commands of the tools and run none");
 }
@@ -40,7 +43,8 @@ void print_commands(const Plan& plan) {
     for (const Stage& stage : plan.stages) {
         std::cout << stage.tool;
         for (const std::string& argument : stage.arguments) {
-            const bool plain = argument.find_first_of(" '\"$*?()&;<>|\\") == std::string::npos && !argument.empty();
+            const bool plain =
+                argument.find_first_of(" '\"$*?()&;<>|\\") == std::string::npos && !argument.empty();
             std::cout << ' ' << (plain ? argument : "'" + argument + "'");
         }
         std::cout << '\n';
@@ -56,7 +60,8 @@ BuildListener listener_for(const ToolContext& context, Progress& progress, std::
         progress.clear();
         const std::string name = outcome.stage->output.filename().string();
         if (outcome.made)
-            context.tell(fmt::format("{:<15} made {} in {:.2f} s", outcome.stage->tool, name, outcome.seconds));
+            context.tell(
+                fmt::format("{:<15} made {} in {:.2f} s", outcome.stage->tool, name, outcome.seconds));
         else
             context.tell(fmt::format("{:<15} kept {}: up to date", outcome.stage->tool, name));
     };
@@ -71,7 +76,8 @@ void copy_asset(const PlannedAsset& asset, const std::filesystem::path& target) 
     auto temporary = target;
     temporary += ".part";
     std::error_code error;
-    std::filesystem::copy_file(asset.file, temporary, std::filesystem::copy_options::overwrite_existing, error);
+    std::filesystem::copy_file(asset.file, temporary, std::filesystem::copy_options::overwrite_existing,
+                               error);
     if (!error) std::filesystem::rename(temporary, target, error);
     if (!error) return;
     std::error_code ignored;
@@ -119,10 +125,12 @@ ExitCode run(ToolContext& context, const Options& options) {
                   listener_for(context, progress, plan.stages.size()));
     if (!options.asset.empty()) copy_asset(plan.assets.front(), options.asset);
 
-    for (const auto& source : result.sources) context.add_input(source);
+    for (const auto& source : result.sources)
+        context.add_input(source);
     context.set_output(options.asset.empty() ? plan.assets.front().file : options.asset);
     context.write_report(report(plan, result));
-    for (const PlannedAsset& asset : plan.assets) std::cout << asset.file.string() << '\n';
+    for (const PlannedAsset& asset : plan.assets)
+        std::cout << asset.file.string() << '\n';
     return ExitCode::done;
 }
 
@@ -135,6 +143,7 @@ int main(int argc, char** argv) {
     info.purpose = "bake heterogeneous soft objects for haptic interaction, from one scene file.";
     info.example = "knead build examples/steak/steak.toml -o build/steak";
     info.uses_threads = true;
-    return run_tool(argc, argv, info, [&](CLI::App& app) { declare(app, options); },
-                    [&](ToolContext& context) { return run(context, options); });
+    return run_tool(
+        argc, argv, info, [&](CLI::App& app) { declare(app, options); },
+        [&](ToolContext& context) { return run(context, options); });
 }

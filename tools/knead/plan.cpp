@@ -11,7 +11,9 @@ namespace {
 using Arguments = std::vector<std::string>;
 
 /// Shortest text that reads back as the same double.
-std::string text_of(double value) { return fmt::format("{}", value); }
+std::string text_of(double value) {
+    return fmt::format("{}", value);
+}
 
 void append_number(Arguments& arguments, const char* option, double value) {
     if (value != 0) arguments.insert(arguments.end(), {option, text_of(value)});
@@ -23,11 +25,13 @@ Arguments mesh_arguments(const MeshSource& mesh) {
     if (mesh.kind == "outline") arguments.insert(arguments.end(), {"--points", mesh.file.string()});
     if (!mesh.divisions.empty()) {
         arguments.emplace_back("--divisions");
-        for (const std::uint32_t n : mesh.divisions) arguments.push_back(std::to_string(n));
+        for (const std::uint32_t n : mesh.divisions)
+            arguments.push_back(std::to_string(n));
     }
     if (!mesh.size_m.empty()) {
         arguments.emplace_back(mesh.kind == "ellipsoid" ? "--radii" : "--size");
-        for (const double length : mesh.size_m) arguments.push_back(text_of(length));
+        for (const double length : mesh.size_m)
+            arguments.push_back(text_of(length));
     }
     append_number(arguments, "--radius", mesh.radius_m);
     append_number(arguments, "--height", mesh.height_m);
@@ -72,7 +76,8 @@ class Planner {
 
     Plan plan(const std::vector<std::string>& levels) {
         const auto mesh = add("knead-mesh", mesh_arguments(scene_.mesh), "mesh");
-        const auto material = add("knead-material", with_input(mesh, material_arguments(scene_.material)), "material");
+        const auto material =
+            add("knead-material", with_input(mesh, material_arguments(scene_.material)), "material");
         for (const Level& level : scene_.levels)
             if (levels.empty() || std::find(levels.begin(), levels.end(), level.name) != levels.end())
                 plan_level(level, mesh, material);
@@ -93,10 +98,12 @@ class Planner {
         return output;
     }
 
-    void plan_level(const Level& level, const std::filesystem::path& fine_mesh, std::filesystem::path object) {
+    void plan_level(const Level& level, const std::filesystem::path& fine_mesh,
+                    std::filesystem::path object) {
         if (level.bins > 0) object = simplify(level, object);
         if (level.mesh) object = coarsen(level, fine_mesh, object);
-        const auto asset = add("knead-bake", {scene_.file.string(), object.string(), "--level", level.name}, level.name);
+        const auto asset =
+            add("knead-bake", {scene_.file.string(), object.string(), "--level", level.name}, level.name);
         plan_.assets.push_back({level.name, asset});
     }
 
@@ -107,8 +114,8 @@ class Planner {
                                    std::to_string(level.restarts), "--seed", std::to_string(level.seed)},
                                   level.name + ".clusters", true);
         return add("knead-aggregate",
-                   {clusters.string(), "--order", level.order, "--interest", level.interest, "--direction-weight",
-                    text_of(level.direction_weight)},
+                   {clusters.string(), "--order", level.order, "--interest", level.interest,
+                    "--direction-weight", text_of(level.direction_weight)},
                    level.name + ".aggregated");
     }
 
@@ -142,8 +149,10 @@ class Planner {
 
 }  // namespace
 
-Plan plan_build(const Scene& scene, const std::vector<std::string>& levels, const std::filesystem::path& folder) {
-    for (const std::string& name : levels) (void)scene.level(name);  // refuses an unknown one
+Plan plan_build(const Scene& scene, const std::vector<std::string>& levels,
+                const std::filesystem::path& folder) {
+    for (const std::string& name : levels)
+        (void)scene.level(name);  // refuses an unknown one
     return Planner(scene, folder).plan(levels);
 }
 

@@ -105,13 +105,16 @@ MeshSource read_mesh_source(const Scene& scene, TomlTable table, const MeshSourc
         if (table.has(key)) *target = *table.flag(key);
     for (const char* key : {"file", "points"})
         if (table.has(key)) mesh.file = path_beside(scene, table.text(key));
-    if (table.has("length_unit")) mesh.length_unit = *table.choice("length_unit", {"m", "dm", "cm", "mm", "um", "in", "ft"});
+    if (table.has("length_unit"))
+        mesh.length_unit = *table.choice("length_unit", {"m", "dm", "cm", "mm", "um", "in", "ft"});
     if (table.has("target_tetrahedra")) {
         const auto target = table.count("target_tetrahedra");
-        if (*target < 1 || *target > 100'000'000) table.fail("target_tetrahedra", "must be from 1 to 100,000,000");
+        if (*target < 1 || *target > 100'000'000)
+            table.fail("target_tetrahedra", "must be from 1 to 100,000,000");
         mesh.target_tetrahedra = static_cast<std::uint32_t>(*target);
     }
-    if (table.has("edge_length")) mesh.edge_length_m = positive(table, "edge_length", table.length_m("edge_length"));
+    if (table.has("edge_length"))
+        mesh.edge_length_m = positive(table, "edge_length", table.length_m("edge_length"));
     check_mesh_source(table, mesh);
     table.finish();
     return mesh;
@@ -158,7 +161,8 @@ MaterialSource read_material_source(const Scene& scene, TomlTable table) {
     material.csv = path_beside(scene, table.text("csv"));
     material.from_mesh = table.flag("from_mesh").value_or(false);
     if (auto regions = table.table("regions")) {
-        for (const std::string& name : regions->keys()) material.regions[name] = read_region(*regions->table(name));
+        for (const std::string& name : regions->keys())
+            material.regions[name] = read_region(*regions->table(name));
         if (material.regions.empty()) table.fail("regions", "is empty");
     }
     const int ways = int(material.uniform_pa.has_value()) + int(material.scenario.has_value()) +
@@ -265,11 +269,13 @@ SceneTool read_scene_tool(TomlTable table, std::size_t index) {
     tool.position_m = table.point_m("position");
     if (const auto q = table.numbers("orientation_wxyz"); !q.empty()) {
         double norm = 0;
-        for (const double v : q) norm += v * v;
+        for (const double v : q)
+            norm += v * v;
         norm = std::sqrt(norm);
         if (q.size() != 4 || std::abs(norm - 1) > kUnitQuaternionTolerance)
             table.fail("orientation_wxyz", "must be a unit quaternion [w, x, y, z]");
-        for (std::size_t i = 0; i < 4; ++i) tool.orientation_wxyz[i] = q[i] / norm;
+        for (std::size_t i = 0; i < 4; ++i)
+            tool.orientation_wxyz[i] = q[i] / norm;
     }
     auto touches = table.table("touches");
     if (!touches) table.fail_missing("touches", "is required: which part of the surface the tool may touch");
@@ -298,8 +304,8 @@ void require_unique_names(const std::vector<Item>& items, const std::string& fil
     for (std::size_t i = 0; i < items.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (items[i].name == items[j].name)
-                fail_input(fmt::format("{}:{}: a {} named \"{}\" stands already at line {}", file, items[i].line,
-                                       what, items[i].name, items[j].line));
+                fail_input(fmt::format("{}:{}: a {} named \"{}\" stands already at line {}", file,
+                                       items[i].line, what, items[i].name, items[j].line));
 }
 
 void read_body(Scene& scene, TomlTable& root) {
@@ -311,7 +317,8 @@ void read_body(Scene& scene, TomlTable& root) {
     if (!material) root.fail_missing("material");
     scene.material_line = material->line();
     scene.material = read_material_source(scene, *material);
-    for (TomlTable& table : root.tables("level")) scene.levels.push_back(read_level(scene, table));
+    for (TomlTable& table : root.tables("level"))
+        scene.levels.push_back(read_level(scene, table));
     if (scene.levels.empty()) root.fail_missing("level", "is required: at least one [[level]]");
     for (TomlTable& table : root.tables("held")) {
         scene.held.push_back(read_selection(table, fmt::format("held[{}]", scene.held.size())));

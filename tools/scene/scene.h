@@ -15,7 +15,7 @@ namespace knead::tools {
 
 /// What the mesh of an object or of a level is made from; the options of knead-mesh, lengths in metres.
 struct MeshSource {
-    std::string kind;  ///< cubes, box, sphere, cylinder, ellipsoid, outline, file
+    std::string kind;                      ///< cubes, box, sphere, cylinder, ellipsoid, outline, file
     std::vector<std::uint32_t> divisions;  ///< cubes: 1 or 3
     std::vector<double> size_m;            ///< cubes, box: 1 or 3; ellipsoid: 3 radii
     double radius_m = 0;                   ///< sphere, cylinder
@@ -77,7 +77,7 @@ struct Selection {
     std::string side;  ///< empty: no side
     std::optional<std::array<Point, 2>> box_m;
     std::optional<std::pair<Point, double>> ball_m;  ///< centre, radius
-    std::string scene_key;   ///< "held[0]", for messages
+    std::string scene_key;                           ///< "held[0]", for messages
     std::uint32_t line = 0;
 };
 
@@ -103,8 +103,8 @@ struct Scene {
     MaterialSource material;
     std::uint32_t material_line = 0;
     std::uint32_t mesh_line = 0;
-    std::vector<Level> levels;   ///< at least one, names unique
-    std::vector<Selection> held; ///< may be empty: a free-floating body
+    std::vector<Level> levels;     ///< at least one, names unique
+    std::vector<Selection> held;   ///< may be empty: a free-floating body
     std::vector<SceneTool> tools;  ///< at least one, names unique
     Point gravity_m_per_s2{};
     std::uint32_t gravity_line = 0;

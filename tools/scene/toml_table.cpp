@@ -16,8 +16,10 @@ namespace {
 /// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-    for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+    for (std::size_t i = 0; i <= a.size(); ++i)
+        d[i][0] = i;
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        d[0][j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
         for (std::size_t j = 1; j <= b.size(); ++j) {
             const std::size_t replaced = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
@@ -49,7 +51,9 @@ const toml::node* TomlTable::find(std::string_view key) {
     return table_->get(key);
 }
 
-bool TomlTable::has(std::string_view key) { return find(key) != nullptr; }
+bool TomlTable::has(std::string_view key) {
+    return find(key) != nullptr;
+}
 
 std::uint32_t TomlTable::line_of(std::string_view key) const {
     const toml::node* node = table_->get(key);
@@ -131,7 +135,8 @@ std::vector<double> TomlTable::lengths_m(std::string_view key) {
     if (node == nullptr) return {};
     if (!node->is_array()) return {length_of(*node, key)};
     std::vector<double> values;
-    for (const toml::node& entry : *node->as_array()) values.push_back(length_of(entry, key));
+    for (const toml::node& entry : *node->as_array())
+        values.push_back(length_of(entry, key));
     return values;
 }
 
@@ -178,7 +183,8 @@ const toml::array* TomlTable::array(std::string_view key) {
 
 std::vector<std::string> TomlTable::keys() const {
     std::vector<std::string> names;
-    for (const auto& [key, node] : *table_) names.emplace_back(key.str());
+    for (const auto& [key, node] : *table_)
+        names.emplace_back(key.str());
     return names;
 }
 

@@ -36,7 +36,8 @@ class TomlTable {
     [[nodiscard]] std::vector<double> lengths_m(std::string_view key);  ///< length or array of lengths
     [[nodiscard]] std::optional<Point> point_m(std::string_view key);
     /// One of `choices`; the error lists them and the nearest.
-    [[nodiscard]] std::optional<std::string> choice(std::string_view key, const std::vector<std::string>& choices);
+    [[nodiscard]] std::optional<std::string> choice(std::string_view key,
+                                                    const std::vector<std::string>& choices);
     [[nodiscard]] std::optional<TomlTable> table(std::string_view key);
     [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);  ///< array of tables; empty if absent
     [[nodiscard]] const toml::array* array(std::string_view key);

@@ -59,7 +59,8 @@ TEST(Bake, Puts_free_nodes_first_and_held_nodes_last) {
     const Asset asset = bake(press_scene(), press_scene().levels[0], two_halves());
     ASSERT_EQ(asset.nodes_m.size(), 64u);
     EXPECT_EQ(asset.free_node_count, 48u);
-    for (std::size_t i = 0; i < asset.nodes_m.size(); ++i) EXPECT_EQ(asset.nodes_m[i][2] == 0, i >= 48) << i;
+    for (std::size_t i = 0; i < asset.nodes_m.size(); ++i)
+        EXPECT_EQ(asset.nodes_m[i][2] == 0, i >= 48) << i;
 }
 
 TEST(Bake, Keeps_every_tetrahedron_with_its_place_and_elasticity) {

@@ -15,15 +15,18 @@ namespace {
 /// Entries of the Cholesky factor of the nodes' graph in this order; counted by Eigen.
 Eigen::Index factor_entries(const TetMesh& mesh, const std::vector<std::uint32_t>& order) {
     std::vector<int> place(mesh.nodes_m.size());
-    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<int>(i);
+    for (std::size_t i = 0; i < order.size(); ++i)
+        place[order[i]] = static_cast<int>(i);
     std::vector<Eigen::Triplet<double>> entries;
     for (const Tetrahedron& t : mesh.tetrahedra)
         for (const std::uint32_t a : t)
-            for (const std::uint32_t b : t) entries.emplace_back(place[a], place[b], a == b ? 10.0 : -0.1);
+            for (const std::uint32_t b : t)
+                entries.emplace_back(place[a], place[b], a == b ? 10.0 : -0.1);
     const auto n = static_cast<Eigen::Index>(order.size());
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(matrix);
+    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(
+        matrix);
     EXPECT_EQ(factor.info(), Eigen::Success);
     return Eigen::SparseMatrix<double>(factor.matrixL()).nonZeros();
 }
@@ -31,7 +34,8 @@ Eigen::Index factor_entries(const TetMesh& mesh, const std::vector<std::uint32_t
 TEST(NodeOrder, Holds_each_free_node_once) {
     const TetMesh mesh = test::kuhn_cube(4);
     std::vector<bool> free(mesh.nodes_m.size());
-    for (std::size_t i = 0; i < free.size(); ++i) free[i] = i % 3 != 0;
+    for (std::size_t i = 0; i < free.size(); ++i)
+        free[i] = i % 3 != 0;
     auto order = nested_dissection_order(mesh.tetrahedra, free);
     std::sort(order.begin(), order.end());
     std::vector<std::uint32_t> expected;

@@ -26,9 +26,11 @@ Run run(std::vector<std::string> arguments, const std::function<ExitCode(ToolCon
     info.example = "knead-test";
     arguments.insert(arguments.begin(), "knead-test");
     std::vector<char*> argv;
-    for (std::string& argument : arguments) argv.push_back(argument.data());
+    for (std::string& argument : arguments)
+        argv.push_back(argument.data());
     testing::internal::CaptureStderr();
-    const int code = run_tool(static_cast<int>(argv.size()), argv.data(), info, [](CLI::App&) {}, body);
+    const int code = run_tool(
+        static_cast<int>(argv.size()), argv.data(), info, [](CLI::App&) {}, body);
     return {code, testing::internal::GetCapturedStderr()};
 }
 

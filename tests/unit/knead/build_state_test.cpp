@@ -10,13 +10,16 @@
 namespace knead::tools {
 namespace {
 
-void write(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
+void write(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream(file) << text;
+}
 
 class State : public testing::Test {
   protected:
     void SetUp() override {
-        folder_ = std::filesystem::path(testing::TempDir()) /
-                  ("build_state_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        folder_ =
+            std::filesystem::path(testing::TempDir()) /
+            ("build_state_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directory(folder_);
         program_ = folder_ / "tool";
@@ -37,7 +40,9 @@ class State : public testing::Test {
     Stage stage_;
 };
 
-TEST_F(State, Recorded_is_up_to_date_after_loading) { EXPECT_TRUE(up_to_date()); }
+TEST_F(State, Recorded_is_up_to_date_after_loading) {
+    EXPECT_TRUE(up_to_date());
+}
 
 TEST_F(State, Is_stale_after_another_argument) {
     stage_.arguments[1] = "4";

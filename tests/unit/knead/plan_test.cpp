@@ -36,7 +36,8 @@ Scene scene_with_levels() {
 
 std::vector<std::string> tools_of(const Plan& plan) {
     std::vector<std::string> tools;
-    for (const Stage& stage : plan.stages) tools.push_back(stage.tool);
+    for (const Stage& stage : plan.stages)
+        tools.push_back(stage.tool);
     return tools;
 }
 

@@ -41,8 +41,9 @@ touches = { side = "top" }
 class SceneFile : public testing::Test {
   protected:
     std::filesystem::path write(const std::string& text) {
-        const auto file = std::filesystem::path(testing::TempDir()) /
-                          (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".toml");
+        const auto file =
+            std::filesystem::path(testing::TempDir()) /
+            (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".toml");
         std::ofstream(file) << text;
         return file;
     }
@@ -89,8 +90,9 @@ TEST_F(SceneFile, Level_mesh_inherits_what_it_does_not_say) {
 TEST_F(SceneFile, With_an_unknown_key_is_refused_with_line_and_nearest_key) {
     const std::string message = error_of(replaced("divisions = 4", "divisons = 4"));
     EXPECT_THAT(message, HasSubstr(".toml:5: "));
-    EXPECT_THAT(error_of(replaced("clusters = 3", "clusters = 3\nclutsers = 3")),
-                HasSubstr(".toml:14: unknown key \"level[1].clutsers\"; did you mean \"level[1].clusters\"?"));
+    EXPECT_THAT(
+        error_of(replaced("clusters = 3", "clusters = 3\nclutsers = 3")),
+        HasSubstr(".toml:14: unknown key \"level[1].clutsers\"; did you mean \"level[1].clusters\"?"));
 }
 
 TEST_F(SceneFile, With_a_required_key_misspelt_names_the_misspelling) {
@@ -98,15 +100,18 @@ TEST_F(SceneFile, With_a_required_key_misspelt_names_the_misspelling) {
 }
 
 TEST_F(SceneFile, With_bad_values_is_refused_with_the_key) {
-    EXPECT_THAT(error_of(replaced("clusters = 3", "clusters = 0")), HasSubstr("level[1].clusters must be from 1"));
-    EXPECT_THAT(error_of(replaced("bins = 2", "bins = -1")), HasSubstr("level[1].bins must be a whole number"));
+    EXPECT_THAT(error_of(replaced("clusters = 3", "clusters = 0")),
+                HasSubstr("level[1].clusters must be from 1"));
+    EXPECT_THAT(error_of(replaced("bins = 2", "bins = -1")),
+                HasSubstr("level[1].bins must be a whole number"));
     EXPECT_THAT(error_of(replaced("\"10cm\"", "\"10 parsecs\"")), HasSubstr("parsecs"));
     EXPECT_THAT(error_of(replaced("\"10cm\"", "-1")), HasSubstr("mesh.size must be positive"));
     EXPECT_THAT(error_of(replaced("\"10cm\"", "nan")), HasSubstr("mesh.size must be a length"));
     EXPECT_THAT(error_of(replaced("side = \"top\"", "side = \"tpo\"")), HasSubstr("did you mean \"top\"?"));
     EXPECT_THAT(error_of(replaced("uniform_pa = 22000", "uniform_pa = 22000\nscenario = 1")),
                 HasSubstr("exactly one of"));
-    EXPECT_THAT(error_of(replaced("name = \"k3\"", "name = \"fine\"")), HasSubstr("stands already at line 8"));
+    EXPECT_THAT(error_of(replaced("name = \"k3\"", "name = \"fine\"")),
+                HasSubstr("stands already at line 8"));
     EXPECT_THAT(error_of(replaced("name = \"cube\"", "name = \"../cube\"")), HasSubstr("letters, digits"));
 }
 

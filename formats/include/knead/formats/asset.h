@@ -23,9 +23,9 @@ enum class ToolShape : std::uint8_t {
 };
 
 enum class ToolContact : std::uint8_t {
-    bonded = 0,      ///< the tool's nodes follow its pose from the start (the paper's press)
-    sticking = 1,    ///< unilateral: touches and leaves; no sliding while it touches
-    frictionless = 2 ///< unilateral: touches and leaves; slides freely
+    bonded = 0,       ///< the tool's nodes follow its pose from the start (the paper's press)
+    sticking = 1,     ///< unilateral: touches and leaves; no sliding while it touches
+    frictionless = 2  ///< unilateral: touches and leaves; slides freely
 };
 
 /// Something that touches the object, and the nodes that it can touch.
@@ -36,9 +36,9 @@ struct ToolSet {
     std::string name;
     ToolShape shape = ToolShape::plate;
     ToolContact contact = ToolContact::bonded;
-    double radius_m = 0;                        ///< sphere only, > 0
-    std::array<double, 2> half_extents_m{};     ///< plate only; {0, 0}: unbounded plane
-    Point rest_position_m{};                    ///< pose of the tool that goes with the rest state
+    double radius_m = 0;                     ///< sphere only, > 0
+    std::array<double, 2> half_extents_m{};  ///< plate only; {0, 0}: unbounded plane
+    Point rest_position_m{};                 ///< pose of the tool that goes with the rest state
     std::array<double, 4> rest_orientation_wxyz{1, 0, 0, 0};  ///< unit quaternion, tool frame to scene
     std::vector<std::uint32_t> nodes;
 };
@@ -66,9 +66,9 @@ struct Asset {
     std::vector<PaletteEntry> palette;
     std::vector<std::uint32_t> palette_index;  ///< [tetrahedra]; one byte each on disk up to 256 entries
     std::vector<ToolSet> tools;
-    Point gravity_m_per_s2{};                  ///< zero: no gravity section on disk
-    double damping_per_s = 0;                  ///< mass-proportional damping; zero: not on disk
-    SurfaceMesh surface;                       ///< empty: not on disk
+    Point gravity_m_per_s2{};  ///< zero: no gravity section on disk
+    double damping_per_s = 0;  ///< mass-proportional damping; zero: not on disk
+    SurfaceMesh surface;       ///< empty: not on disk
 
     /// For each group of the file that the scene asked for: HDF5 path, scene key, line of the scene file.
     struct Request {

@@ -20,13 +20,13 @@ struct Clustering {
     std::vector<std::uint32_t> bin_of_tetrahedron;      ///< [tetrahedra] < bins
     std::vector<std::uint32_t> cluster_of_tetrahedron;  ///< [tetrahedra] < clusters
 
-    std::vector<double> bin_youngs_modulus_pa;   ///< [bins] volume-weighted mean
-    std::vector<double> bin_poissons_ratio;      ///< [bins] volume-weighted mean
-    std::vector<double> bin_density_kg_per_m3;   ///< [bins] volume-weighted mean
+    std::vector<double> bin_youngs_modulus_pa;  ///< [bins] volume-weighted mean
+    std::vector<double> bin_poissons_ratio;     ///< [bins] volume-weighted mean
+    std::vector<double> bin_density_kg_per_m3;  ///< [bins] volume-weighted mean
 
-    std::vector<std::uint32_t> bin_of_cluster;      ///< [clusters]
-    std::vector<Point> cluster_barycentre_m;        ///< [clusters] volume-weighted centre of its tetrahedra
-    std::vector<double> cluster_volume_m3;          ///< [clusters]
+    std::vector<std::uint32_t> bin_of_cluster;  ///< [clusters]
+    std::vector<Point> cluster_barycentre_m;    ///< [clusters] volume-weighted centre of its tetrahedra
+    std::vector<double> cluster_volume_m3;      ///< [clusters]
 };
 
 /// A mesh, its raw material and the clustering of it: what a "clustering" stage file holds.

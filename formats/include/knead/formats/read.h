@@ -21,8 +21,8 @@ struct ReadLimits {
     std::uint64_t max_nodes = 100'000'000;
     std::uint64_t max_tetrahedra = 400'000'000;
     std::uint64_t max_overlap_entries = 4'000'000'000;
-    std::uint64_t max_names = 4096;          ///< regions, cell arrays, tools, requests: each
-    std::uint64_t max_string_bytes = 65536;  ///< any one string
+    std::uint64_t max_names = 4096;                     ///< regions, cell arrays, tools, requests: each
+    std::uint64_t max_string_bytes = 65536;             ///< any one string
     std::uint64_t max_bytes = std::uint64_t{64} << 30;  ///< memory of all arrays of one file together
 };
 
@@ -33,10 +33,11 @@ enum class FileKind : std::uint8_t { tet_mesh, material, clustering, overlap, as
 
 /// Who made a file from what; never a clock, host, user, path or thread count (docs/format.md).
 struct Provenance {
-    std::string tool;                   ///< "knead-cluster"
-    std::string tool_version;           ///< Knead's version
-    std::vector<std::string> arguments; ///< canonical: every option that changes the result, defaults included
-    std::uint64_t seed = 0;             ///< 0 when the tool draws no random numbers
+    std::string tool;          ///< "knead-cluster"
+    std::string tool_version;  ///< Knead's version
+    std::vector<std::string>
+        arguments;           ///< canonical: every option that changes the result, defaults included
+    std::uint64_t seed = 0;  ///< 0 when the tool draws no random numbers
     /// Role ("fine", "coarse") and content hash of every input, in the order of the command line.
     std::vector<std::pair<std::string, std::string>> inputs;
 };

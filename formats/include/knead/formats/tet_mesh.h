@@ -10,8 +10,8 @@
 
 namespace knead {
 
-using Point = std::array<double, 3>;                ///< metres
-using Tetrahedron = std::array<std::uint32_t, 4>;   ///< node indices
+using Point = std::array<double, 3>;               ///< metres
+using Tetrahedron = std::array<std::uint32_t, 4>;  ///< node indices
 
 /// A named value per tetrahedron that came with the mesh (an array of a .vtk file, a VegaFEM material).
 /// Carried so that knead-material can pick it up; units are those of its name.
@@ -22,8 +22,9 @@ struct CellArray {
 
 /// A named set of tetrahedra: a gmsh physical volume, a VegaFEM region. Regions partition the mesh.
 struct Regions {
-    std::vector<std::string> names;                   ///< unique, not empty
-    std::vector<std::uint32_t> region_of_tetrahedron;  ///< [tetrahedra] index into names, or empty: no regions
+    std::vector<std::string> names;  ///< unique, not empty
+    std::vector<std::uint32_t>
+        region_of_tetrahedron;  ///< [tetrahedra] index into names, or empty: no regions
 };
 
 /// A tetrahedral mesh in its rest state, in metres.
