@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "aggregate/aggregate.h"
 #include "common/run_tool.h"
+#include "common/stopwatch.h"
 #include "knead/formats/write/write.h"
 
 namespace knead::tools {
@@ -74,10 +74,7 @@ void report(const ToolContext& context, const ClusteredObject& object, const Agg
 }
 
 ExitCode run(ToolContext& context, const Arguments& arguments) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto seconds_since = [](std::chrono::steady_clock::time_point moment) {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - moment).count();
-    };
+    const Stopwatch total;
     require_writable_folder(arguments.output);
     context.set_output(arguments.output);
     context.add_input(arguments.clustered);
@@ -88,12 +85,12 @@ ExitCode run(ToolContext& context, const Arguments& arguments) {
                                    value_or_throw(read_header(arguments.clustered)).content_hash);
     const ClusteredObject object = value_or_throw(read_clustering(arguments.clustered));
 
-    const auto aggregate_start = std::chrono::steady_clock::now();
+    const Stopwatch aggregate_watch;
     const AggregateResult result = aggregate(
         object, {kOrders.at(arguments.order), kInterests.at(arguments.interest), arguments.direction_weight});
-    const double aggregate_s = seconds_since(aggregate_start);
+    const double aggregate_s = aggregate_watch.seconds();
     value_or_throw(write_material(arguments.output, {object.mesh, result.material}, provenance));
-    report(context, object, result, aggregate_s, seconds_since(start));
+    report(context, object, result, aggregate_s, total.seconds());
     return ExitCode::done;
 }
 

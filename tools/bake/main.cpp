@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "bake/bake.h"
 #include "common/run_tool.h"
+#include "common/stopwatch.h"
 #include "knead/formats/hash.h"
 #include "knead/formats/write/write.h"
 
@@ -42,7 +42,7 @@ std::string report(const Asset& asset, double seconds) {
 }
 
 ExitCode run(ToolContext& context, const Options& options) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch total;
     require_writable_folder(options.output);
     context.add_input(options.scene);
     context.add_input(options.object);
@@ -61,8 +61,7 @@ ExitCode run(ToolContext& context, const Options& options) {
 
     context.detail(fmt::format("{} of {} tetrahedra, {} free nodes, {} elasticities", asset.tetrahedra.size(),
                                object.mesh.tetrahedra.size(), asset.free_node_count, asset.palette.size()));
-    context.write_report(
-        report(asset, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
+    context.write_report(report(asset, total.seconds()));
     return ExitCode::done;
 }
 

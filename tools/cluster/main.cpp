@@ -3,12 +3,12 @@
 #include <tbb/global_control.h>
 #include <tbb/version.h>
 
-#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "cluster/cluster.h"
 #include "common/run_tool.h"
+#include "common/stopwatch.h"
 #include "knead/formats/write/write.h"
 
 namespace knead::tools {
@@ -79,10 +79,7 @@ void report(const ToolContext& context, const ClusterResult& result, double clus
 }
 
 ExitCode run(ToolContext& context, Arguments& arguments) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto seconds_since = [](std::chrono::steady_clock::time_point moment) {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - moment).count();
-    };
+    const Stopwatch total;
     require_writable_folder(arguments.output);
     context.set_output(arguments.output);
     context.add_input(arguments.material);
@@ -96,13 +93,13 @@ ExitCode run(ToolContext& context, Arguments& arguments) {
     MaterialObject object = value_or_throw(read_material(arguments.material));
 
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, context.threads);
-    const auto cluster_start = std::chrono::steady_clock::now();
+    const Stopwatch cluster_watch;
     const ClusterResult result = cluster_object(object.mesh, object.material, options);
-    const double cluster_s = seconds_since(cluster_start);
+    const double cluster_s = cluster_watch.seconds();
     value_or_throw(write_clustering(arguments.output,
                                     {std::move(object.mesh), std::move(object.material), result.clustering},
                                     provenance));
-    report(context, result, cluster_s, seconds_since(start));
+    report(context, result, cluster_s, total.seconds());
     return ExitCode::done;
 }
 

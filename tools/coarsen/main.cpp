@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "coarsen/coarsen.h"
 #include "common/run_tool.h"
+#include "common/stopwatch.h"
 #include "knead/formats/write/write.h"
 
 namespace knead::tools {
@@ -85,10 +85,7 @@ void report(const ToolContext& context, const Arguments& arguments, const Coarse
 }
 
 ExitCode run(ToolContext& context, const Arguments& arguments) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto seconds_since = [](std::chrono::steady_clock::time_point moment) {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - moment).count();
-    };
+    const Stopwatch total;
     require_writable_folder(arguments.output);
     context.set_output(arguments.output);
     Provenance provenance = context.provenance({"--rule", arguments.rule});
@@ -99,7 +96,7 @@ ExitCode run(ToolContext& context, const Arguments& arguments) {
     note_input(context, arguments.overlap, "overlap", provenance);
     const OverlapMatrix overlap = value_or_throw(read_overlap(arguments.overlap));
 
-    const auto coarsen_start = std::chrono::steady_clock::now();
+    const Stopwatch coarsen_watch;
     CoarsenResult result = [&] {
         try {
             return coarsen(fine, coarse, overlap, kRules.at(arguments.rule));
@@ -107,13 +104,13 @@ ExitCode run(ToolContext& context, const Arguments& arguments) {
             throw ToolError(error.code(), arguments.overlap.string() + ": " + error.what());
         }
     }();
-    const double coarsen_s = seconds_since(coarsen_start);
+    const double coarsen_s = coarsen_watch.seconds();
     // The names of regions and arrays speak of the original's materials; the coarse values come from the fine
     // mesh.
     coarse.regions = {};
     coarse.cell_arrays.clear();
     value_or_throw(write_material(arguments.output, {std::move(coarse), result.material}, provenance));
-    report(context, arguments, result, coarsen_s, seconds_since(start));
+    report(context, arguments, result, coarsen_s, total.seconds());
     return ExitCode::done;
 }
 

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "common/run_tool.h"
+#include "common/stopwatch.h"
 #include "knead/formats/hash.h"
 #include "knead/formats/write/write.h"
 #include "material/csv.h"
@@ -73,7 +73,7 @@ void report(const ToolContext& context, const Arguments& arguments, const Materi
 }
 
 ExitCode run(ToolContext& context, Arguments& arguments) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch total;
     require_writable_folder(arguments.output);
     context.set_output(arguments.output);
     context.add_input(arguments.mesh);
@@ -91,8 +91,7 @@ ExitCode run(ToolContext& context, Arguments& arguments) {
     if (!answer.used_seed) provenance.seed = 0;
     provenance.inputs = std::move(inputs);
     value_or_throw(write_material(arguments.output, object, provenance));
-    report(context, arguments, object,
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    report(context, arguments, object, total.seconds());
     return ExitCode::done;
 }
 

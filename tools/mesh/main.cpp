@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "common/run_tool.h"
+#include "common/stopwatch.h"
 #include "knead/formats/write/write.h"
 #include "mesh/geometry.h"
 #include "mesh/gmsh_primitives.h"
@@ -111,7 +111,7 @@ void say(const ToolContext& context, const MadeMesh& made, const MeshQuality& qu
 }
 
 ExitCode run(ToolContext& context, const MeshOptions& options) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch total;
     context.set_output(options.output);
     require_writable_folder(options.output);
     SourceFiles files([&](const std::filesystem::path& file) { context.add_input(file); });
@@ -123,8 +123,8 @@ ExitCode run(ToolContext& context, const MeshOptions& options) {
     Provenance provenance = context.provenance(canonical_arguments(options));
     provenance.inputs = files.hashes();
     value_or_throw(write_tet_mesh(options.output, made.mesh, provenance));
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    context.write_report(report(made, quality, options, elapsed.count()));
+    const double elapsed_s = total.seconds();
+    context.write_report(report(made, quality, options, elapsed_s));
     return ExitCode::done;
 }
 

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "common/run_tool.h"
+#include "common/stopwatch.h"
 #include "knead/formats/write/write.h"
 #include "overlap/coverage.h"
 #include "overlap/exact.h"
@@ -34,16 +34,6 @@ void declare(CLI::App& app, Arguments& arguments) {
         ->capture_default_str()
         ->type_name("RATIO");
 }
-
-class Stopwatch {
-  public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 TetMesh read_mesh(ToolContext& context, const std::filesystem::path& file, const char* role,
                   Provenance& provenance) {
