@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#define KNEAD_SIMD avx512
+#define KNEAD_SIMD_BYTES 64
+#include "core/simd/factor_kernels.inl"
+#include "core/simd/kernels.h"
+
+namespace knead::core {
+
+extern const Kernels kAvx512Kernels;
+const Kernels kAvx512Kernels = {avx512::factor_kernels()};
+
+}  // namespace knead::core

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#define KNEAD_SIMD portable
+#define KNEAD_SIMD_BYTES 16
+#include "core/simd/factor_kernels.inl"
+#include "core/simd/kernels.h"
+
+namespace knead::core {
+
+extern const Kernels kPortableKernels;
+const Kernels kPortableKernels = {portable::factor_kernels()};
+
+}  // namespace knead::core
