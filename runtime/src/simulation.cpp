@@ -2,8 +2,8 @@
 #include "knead/runtime/simulation.h"
 
 #include <new>
-#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "core/step.h"
 #include "load/check_config.h"
@@ -13,12 +13,17 @@ namespace knead {
 /// The core, and what of the asset its caller may ask for.
 struct Simulation::Impl {
     Impl(const Asset& asset, const SimulationConfig& config)
-        : stepper(asset, config),
-          rest_pose{asset.tools[config.tool].rest_position_m,
-                    asset.tools[config.tool].rest_orientation_wxyz} {}
+        : stepper(core::make_stepper(asset, config)),
+          tetrahedra(asset.tetrahedra.size()),
+          positions_m(3 * stepper->node_count()) {
+        for (const std::size_t k : config.tools)
+            rest_poses.push_back({asset.tools[k].rest_position_m, asset.tools[k].rest_orientation_wxyz});
+    }
 
-    core::Stepper stepper;
-    Pose rest_pose;
+    std::unique_ptr<core::Stepper> stepper;
+    std::vector<Pose> rest_poses;
+    std::size_t tetrahedra;
+    std::vector<double> positions_m;  ///< as last asked for
 };
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
@@ -37,29 +42,48 @@ Result<Simulation> Simulation::create(const Asset& asset, const SimulationConfig
 }
 
 StepResult Simulation::step(const Pose& pose, double dt_s) noexcept {
-    return impl_->stepper.step(pose, dt_s);
+    return impl_->stepper->step(&pose, dt_s);
+}
+
+StepResult Simulation::step(const Pose* poses, double dt_s) noexcept {
+    return impl_->stepper->step(poses, dt_s);
+}
+
+const ToolResult& Simulation::tool(std::size_t index) const noexcept {
+    return impl_->stepper->tool(index);
 }
 
 void Simulation::reset() noexcept {
-    impl_->stepper.reset();
+    impl_->stepper->reset();
+}
+
+std::size_t Simulation::tool_count() const noexcept {
+    return impl_->stepper->tool_count();
 }
 
 std::size_t Simulation::node_count() const noexcept {
-    return impl_->stepper.model().rest_m.size();
+    return impl_->stepper->node_count();
 }
 
 std::size_t Simulation::tetrahedron_count() const noexcept {
-    return impl_->stepper.model().elements.size();
+    return impl_->tetrahedra;
 }
 
 const double* Simulation::positions_m() const noexcept {
-    static_assert(std::is_same_v<core::Real, double> && sizeof(core::Vec) == 3 * sizeof(double),
-                  "positions are handed out as they are stored");
-    return impl_->stepper.positions_m().front().data();
+    impl_->stepper->positions_m(impl_->positions_m.data());
+    return impl_->positions_m.data();
 }
 
-Pose Simulation::tool_rest_pose() const noexcept {
-    return impl_->rest_pose;
+void Simulation::velocities_m_per_s(double* out) const noexcept {
+    impl_->stepper->velocities_m_per_s(out);
+}
+
+Pose Simulation::tool_rest_pose(std::size_t index) const noexcept {
+    return impl_->rest_poses[index];
+}
+
+std::size_t Simulation::preconditioner_bytes() const noexcept {
+    return impl_->stepper->factor_bytes();
 }
 
 }  // namespace knead

@@ -64,6 +64,7 @@ typedef struct knead_config {
     double coupling_stiffness_n_per_m; /* 0: no coupling, the tool is at the given pose */
     double coupling_damping_n_s_per_m;
     double tool_mass_kg;
+    double expected_dt_s; /* the step that will be asked for most: what loading prepares for */
 } knead_config;
 
 /* What one step yields; knead_step_result_init() sets struct_size. */

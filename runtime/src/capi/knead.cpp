@@ -36,15 +36,17 @@ knead_error fail(knead_simulation& handle, const char* text) noexcept {
     return KNEAD_ERROR_INVALID_ARGUMENT;
 }
 
-knead::SimulationConfig to_cpp(const knead_config& config) noexcept {
+knead::SimulationConfig to_cpp(const knead_config& config) {
     knead::SimulationConfig result;
-    result.tool = config.tool;
+    result.tools = {config.tool};
     result.force_tolerance = config.force_tolerance;
     result.max_solver_iterations = config.max_solver_iterations;
     result.max_contact_passes = config.max_contact_passes;
     result.coupling_stiffness_n_per_m = config.coupling_stiffness_n_per_m;
     result.coupling_damping_n_s_per_m = config.coupling_damping_n_s_per_m;
     result.tool_mass_kg = config.tool_mass_kg;
+    if (config.struct_size >= offsetof(knead_config, expected_dt_s) + sizeof(double))
+        result.expected_dt_s = config.expected_dt_s;
     return result;
 }
 
@@ -69,13 +71,14 @@ void knead_config_init(knead_config* config) noexcept {
     if (config == nullptr) return;
     const knead::SimulationConfig defaults;
     config->struct_size = sizeof(knead_config);
-    config->tool = defaults.tool;
+    config->tool = defaults.tools.front();
     config->force_tolerance = defaults.force_tolerance;
     config->max_solver_iterations = defaults.max_solver_iterations;
     config->max_contact_passes = defaults.max_contact_passes;
     config->coupling_stiffness_n_per_m = defaults.coupling_stiffness_n_per_m;
     config->coupling_damping_n_s_per_m = defaults.coupling_damping_n_s_per_m;
     config->tool_mass_kg = defaults.tool_mass_kg;
+    config->expected_dt_s = defaults.expected_dt_s;
 }
 
 void knead_step_result_init(knead_step_result* result) noexcept {

@@ -1,143 +1,143 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/contact.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace knead::core {
 namespace {
 
-/// Passing the surface by less than this share of the object's size is rounding.
-constexpr Real kGapTolerance = 1e-8;
+/// Passes in which the violators may fail to become fewer before nodes switch one at a time.
+constexpr int kPatience = 2;
+
+Frame rest_frame_of(const ToolSet& tool) {
+    const auto& p = tool.rest_position_m;
+    const auto& q = tool.rest_orientation_wxyz;
+    return {Vec(p[0], p[1], p[2]), Quat(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix()};
+}
 
 }  // namespace
 
-Contact::Contact(const ToolSet& tool, const Model& model)
-    : shape_(tool.shape),
-      kind_(tool.contact),
-      radius_m_(tool.radius_m),
-      half_extents_m_{Real(tool.half_extents_m[0]), Real(tool.half_extents_m[1])},
-      gap_tolerance_m_(kGapTolerance * model.size_m) {
-    const auto& p = tool.rest_position_m;
-    const auto& q = tool.rest_orientation_wxyz;
-    rest_frame_.position = Vec(p[0], p[1], p[2]);
-    rest_frame_.rotation = Quat(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
-    at_rest_.resize(tool.nodes.size());
-    for (std::size_t k = 0; k < tool.nodes.size(); ++k) {
-        Candidate& candidate = at_rest_[k];
-        candidate.node = tool.nodes[k];
-        const Vec local = rest_frame_.to_local(model.rest_m[candidate.node]);
-        if (kind_ == ToolContact::bonded) {
-            candidate.held = true;
-            candidate.anchor = local;
+Contact::Contact(const std::vector<ToolSet>& tools, const Model& model, BondedNodes bonded_nodes)
+    : bonded_nodes_(bonded_nodes),
+      bonded_owners_(model.rest_m.size(), kNobody),
+      owners_(model.rest_m.size(), kNobody),
+      loads_(tools.size()),
+      predicted_(tools.size()) {
+    std::size_t most = 0;
+    for (std::size_t t = 0; t < tools.size(); ++t) {
+        Tool tool;
+        tool.rest = rest_frame_of(tools[t]);
+        const auto index = static_cast<std::uint16_t>(t);
+        if (tools[t].contact != ToolContact::bonded) {
+            tool.touched.emplace_back(tools[t], index, model);
         } else {
-            candidate.beyond = depth(local) > 0 && beside(local);
+            for (const std::uint32_t node : tools[t].nodes) {
+                if (bonded_owners_[node] != kNobody) continue;
+                bonded_owners_[node] = index;
+                tool.bonds.push_back({node, tool.rest.to_local(model.rest_m[node])});
+            }
         }
+        tools_.push_back(std::move(tool));
+        most += tools[t].nodes.size();
     }
-    candidates_ = before_ = at_rest_;
-    constraints_.reserve(at_rest_.size());
-    candidate_of_.reserve(at_rest_.size());
+    constraints_.reserve(std::min<std::size_t>(most, model.free_count));
+    reset();
 }
 
 void Contact::reset() noexcept {
-    candidates_ = at_rest_;
-    before_ = at_rest_;
-    constraints_.clear();
-    candidate_of_.clear();
-}
-
-/// How far a point is inside the tool (sphere) or behind its face (plate); negative: outside.
-Real Contact::depth(const Vec& local) const noexcept {
-    return shape_ == ToolShape::sphere ? radius_m_ - local.norm() : local.z();
-}
-
-/// Past the rectangle of a bounded plate, whose side walls do not touch.
-bool Contact::beside(const Vec& local) const noexcept {
-    if (shape_ == ToolShape::sphere || (half_extents_m_[0] == 0 && half_extents_m_[1] == 0)) return false;
-    return std::abs(local.x()) > half_extents_m_[0] || std::abs(local.y()) > half_extents_m_[1];
-}
-
-void Contact::place_on_surface(Candidate& candidate, const Vec& local) const noexcept {
-    if (shape_ == ToolShape::plate) {
-        candidate.normal = Vec(0, 0, -1);
-        candidate.anchor = Vec(local.x(), local.y(), 0);
-        return;
+    for (Tool& tool : tools_) {
+        for (TouchedSet& touched : tool.touched)
+            touched.reset(tool.rest);
     }
-    const Real distance = local.norm();
-    candidate.normal = distance > 0 ? Vec(local / distance) : Vec(0, 0, 1);
-    candidate.anchor = radius_m_ * candidate.normal;
-}
-
-void Contact::list_constraints(const Frame& tool, const Field& predicted_m) noexcept {
+    std::copy(bonded_owners_.begin(), bonded_owners_.end(), owners_.begin());
     constraints_.clear();
-    candidate_of_.clear();
-    for (std::size_t k = 0; k < candidates_.size(); ++k) {
-        const Candidate& candidate = candidates_[k];
-        if (!candidate.held) continue;
-        Constraint constraint;
-        constraint.node = candidate.node;
-        if (kind_ == ToolContact::frictionless) {
-            const Vec normal = tool.rotation * candidate.normal;
-            constraint.held = normal * normal.transpose();
-        }
-        constraint.offset_m = tool.to_scene(candidate.anchor) - predicted_m[candidate.node];
-        constraints_.push_back(constraint);
-        candidate_of_.push_back(k);
-    }
+    std::fill(loads_.begin(), loads_.end(), ToolLoad{});
 }
 
-void Contact::begin_step(const Frame& tool, const Field& predicted_m) noexcept {
-    before_ = candidates_;
-    for (Candidate& candidate : candidates_) {
-        candidate.caught = candidate.let_go = false;
-        if (!candidate.held || kind_ != ToolContact::frictionless) continue;
-        const Vec local = tool.to_local(predicted_m[candidate.node]);
-        if (beside(local)) {
-            candidate.held = false;  // it slid off the edge
-        } else {
-            place_on_surface(candidate, local);
+void Contact::list_constraints(const NodeReader& predicted) noexcept {
+    constraints_.clear();
+    for (std::size_t t = 0; t < tools_.size(); ++t) {
+        if (bonded_nodes_ == BondedNodes::left_out) break;
+        for (const Bond& bond : tools_[t].bonds) {
+            Constraint constraint;
+            constraint.node = bond.node;
+            constraint.tool = static_cast<std::uint32_t>(t);
+            constraint.offset_m = predicted_[t].to_scene(bond.anchor) - predicted(bond.node);
+            constraints_.push_back(constraint);
         }
     }
-    list_constraints(tool, predicted_m);
+    for (std::size_t t = 0; t < tools_.size(); ++t) {
+        for (TouchedSet& touched : tools_[t].touched)
+            touched.append_constraints(predicted_[t], predicted, constraints_);
+    }
 }
 
-bool Contact::revise(const Frame& tool, const Field& predicted_m, const Solution& solution,
-                     Real pull_tolerance_n) noexcept {
-    if (kind_ == ToolContact::bonded) return false;
-    bool changed = false;
+void Contact::begin_step(const std::vector<Frame>& tools, const NodeReader& predicted, Real dt_s) noexcept {
+    std::copy(tools.begin(), tools.end(), predicted_.begin());
+    friction_updates_ = 0;
+    fewest_violators_ = owners_.size() + 1;
+    passes_without_gain_ = 0;
+    for (std::size_t t = 0; t < tools_.size(); ++t) {
+        for (TouchedSet& touched : tools_[t].touched)
+            touched.begin_step(predicted_[t], predicted, dt_s, owners_);
+    }
+    list_constraints(predicted);
+}
+
+Frame Contact::moved(std::size_t tool, const Attempt& attempt) const noexcept {
+    return {predicted_[tool].position + attempt.tool_displacement_m[tool], predicted_[tool].rotation};
+}
+
+void Contact::measure(const Attempt& attempt) noexcept {
+    std::fill(loads_.begin(), loads_.end(), ToolLoad{});
     for (std::size_t k = 0; k < constraints_.size(); ++k) {
-        Candidate& candidate = candidates_[candidate_of_[k]];
-        const Vec outward = tool.rotation * candidate.normal;
-        // The object pushes the tool against its outward normal; along it, it would have to be pulled.
-        if (candidate.let_go || outward.dot(solution.reaction_n[k]) <= pull_tolerance_n) continue;
-        candidate.held = false;
-        candidate.let_go = true;
-        changed = true;
+        const Constraint& constraint = constraints_[k];
+        const Vec force = force_on_tool(constraint, attempt.row_n[k]);
+        const Vec origin =
+            predicted_[constraint.tool].position + attempt.tool_displacement_m[constraint.tool];
+        ToolLoad& load = loads_[constraint.tool];
+        load.force_n += force;
+        load.torque_n_m += (attempt.solved(constraint.node) - origin).cross(force);
+        ++load.touched;
     }
-    Frame moved = tool;
-    moved.position += solution.displacement.tool;
-    for (Candidate& candidate : candidates_) {
-        if (candidate.held || candidate.caught || candidate.let_go || candidate.beyond) continue;
-        const Vec local =
-            moved.to_local(predicted_m[candidate.node] + solution.displacement.nodes[candidate.node]);
-        if (depth(local) <= gap_tolerance_m_ || beside(local)) continue;
-        place_on_surface(candidate, local);
-        candidate.held = true;
-        candidate.caught = true;
-        changed = true;
-    }
-    if (changed) list_constraints(tool, predicted_m);
-    return changed;
 }
 
-void Contact::end_step(const Frame& tool, const Field& positions_m) noexcept {
-    for (Candidate& candidate : candidates_) {
-        if (candidate.held) continue;
-        const Vec local = tool.to_local(positions_m[candidate.node]);
-        if (depth(local) <= 0) {
-            candidate.beyond = false;
-        } else if (beside(local)) {
-            candidate.beyond = true;
-        }
+Contact::Revision Contact::revise(const Attempt& attempt) noexcept {
+    measure(attempt);
+    Tally tally;
+    tally.one_only = passes_without_gain_ >= kPatience;
+    tally.friction_may_change = friction_updates_ < kMostFrictionUpdates;
+    for (std::size_t t = 0; t < tools_.size(); ++t) {
+        for (TouchedSet& touched : tools_[t].touched)
+            touched.revise(moved(t, attempt), attempt, owners_, tally);
+    }
+    for (std::size_t t = 0; t < tools_.size() && !tally.changed; ++t) {
+        for (TouchedSet& touched : tools_[t].touched)
+            touched.yield_to_pull(moved(t, attempt), attempt, tally);
+    }
+    if (!tally.changed) return tally.given_up ? Revision::given_up : Revision::settled;
+    if (tally.friction_changed) ++friction_updates_;
+    if (tally.violators < fewest_violators_) {
+        fewest_violators_ = tally.violators;
+        passes_without_gain_ = 0;
+    } else if (tally.violators > 0) {
+        ++passes_without_gain_;
+    }
+    list_constraints(attempt.predicted);
+    return Revision::changed;
+}
+
+void Contact::end_step(const std::vector<Frame>& tools, const NodeReader& positions, Real travel_m) noexcept {
+    for (std::size_t t = 0; t < tools_.size(); ++t) {
+        for (TouchedSet& touched : tools_[t].touched)
+            touched.end_step(tools[t], positions, travel_m);
+    }
+}
+
+void Contact::abandon_step() noexcept {
+    for (Tool& tool : tools_) {
+        for (TouchedSet& touched : tool.touched)
+            touched.abandon_step(owners_);
     }
 }
 

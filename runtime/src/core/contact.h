@@ -1,70 +1,99 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/solver.h"
-#include "knead/formats/asset.h"
+#include "core/touched_set.h"
 
 namespace knead::core {
 
-/// Which nodes the tool holds, and how: hard constraints by an active set that starts from the step before.
+/// A node of a bonded tool.
+struct Bond {
+    std::uint32_t node = 0;
+    Vec anchor = Vec::Zero();  ///< in the tool's frame
+};
+
+/// What the object does to a tool through the nodes in the constraint list.
+struct ToolLoad {
+    Vec force_n = Vec::Zero();     ///< on the tool
+    Vec torque_n_m = Vec::Zero();  ///< about the tool's origin, scene axes
+    std::uint32_t touched = 0;     ///< nodes held
+};
+
+enum class BondedNodes : std::uint8_t {
+    listed,   ///< constraints like all others
+    left_out  ///< not in constraints(): the core moves them itself, see bonds()
+};
+
+/// Which nodes the tools hold, and how: hard constraints by active sets that start from the step before.
 ///
-/// Bonded: all of the tool's nodes, always, rigidly. Unilateral: a node that would pass the surface is held
-/// on it (sticking: at the point where it came; frictionless: along the normal only, the tangent plane taken
-/// anew each step), and let go when it would have to be pulled. Within one step a node is caught at most once
-/// and let go at most once, so that passes end. No penalty forces. Allocates in the constructor only.
+/// Bonded tools: all their nodes, always, rigidly. Others: TouchedSet. A node is held by one tool at a time:
+/// the one that had it first, of several in one pass the one listed first; nodes of a bonded tool are never
+/// free for others. Passes end: a node may switch a few times only in a step (touched_set.cpp), friction is
+/// updated kMostFrictionUpdates times, and when the violations stop becoming fewer, only one node switches
+/// at a time (Judice and Pires 1994). No penalty forces. Allocates in the constructor only.
+///
+/// One step: begin_step(); solve; revise(), solve again while it says changed; end_step() or abandon_step().
 class Contact {
   public:
-    /// @param tool valid, of the asset that `model` was built from
-    Contact(const ToolSet& tool, const Model& model);
+    enum class Revision : std::uint8_t {
+        settled,  ///< no node inside a tool, none pulled, friction as Coulomb's law says, within tolerance
+        changed,  ///< solve again
+        given_up  ///< a node is still wrong and has used up its switches: not settled, go on with the step
+    };
+
+    static constexpr int kMostFrictionUpdates = 30;  ///< passes of a step
+
+    /// @param tools valid, of the asset that `model` was built from  @param model outlives this
+    Contact(const std::vector<ToolSet>& tools, const Model& model,
+            BondedNodes bonded_nodes = BondedNodes::listed);
 
     void reset() noexcept;
 
-    /// The touched set of the step before, held for a tool predicted at `tool`.
-    void begin_step(const Frame& tool, const Field& predicted_m) noexcept;
+    /// The touched sets of the step before. @param tools [tools] predicted
+    void begin_step(const std::vector<Frame>& tools, const NodeReader& predicted, Real dt_s) noexcept;
 
-    /// Lets go of what would be pulled and catches what would pass.
-    /// @param tool as in begin_step(); solution.displacement.tool says how far it really went
-    /// @param pull_tolerance_n a pull up to this is the solver's error
-    /// @return whether the set changed: solve again
-    bool revise(const Frame& tool, const Field& predicted_m, const Solution& solution,
-                Real pull_tolerance_n) noexcept;
+    /// What the tools feel in a solve with constraints(): load(). Part of revise(); for a solve that failed.
+    void measure(const Attempt& attempt) noexcept;
 
-    /// After an accepted step. @param tool where it is now
-    void end_step(const Frame& tool, const Field& positions_m) noexcept;
+    /// After a solve with constraints().
+    Revision revise(const Attempt& attempt) noexcept;
+
+    /// After an accepted step. @param tools [tools] where they are now  @param travel_m as in Attempt
+    void end_step(const std::vector<Frame>& tools, const NodeReader& positions, Real travel_m) noexcept;
 
     /// Back to before begin_step().
-    void abandon_step() noexcept { candidates_ = before_; }
+    void abandon_step() noexcept;
 
+    /// Bonded nodes first (if listed), then by tool, then by node.
     [[nodiscard]] const std::vector<Constraint>& constraints() const noexcept { return constraints_; }
-    [[nodiscard]] std::size_t max_constraints() const noexcept { return candidates_.size(); }
-    [[nodiscard]] const Frame& rest_frame() const noexcept { return rest_frame_; }
+    [[nodiscard]] std::size_t max_constraints() const noexcept { return constraints_.capacity(); }
+    [[nodiscard]] std::size_t tool_count() const noexcept { return tools_.size(); }
+    [[nodiscard]] const Frame& rest_frame(std::size_t tool) const noexcept { return tools_[tool].rest; }
+    /// Empty unless the tool is bonded.
+    [[nodiscard]] const std::vector<Bond>& bonds(std::size_t tool) const noexcept {
+        return tools_[tool].bonds;
+    }
+    /// Of the last solve that was measured.
+    [[nodiscard]] const ToolLoad& load(std::size_t tool) const noexcept { return loads_[tool]; }
 
   private:
-    /// A node that the tool may touch. Vectors in the tool's frame.
-    struct Candidate {
-        std::uint32_t node = 0;
-        bool held = false;
-        bool beyond = false;  ///< behind the plate's plane, but it went there beside the rectangle
-        bool caught = false;  ///< in this step
-        bool let_go = false;  ///< in this step
-        Vec anchor = Vec::Zero();
-        Vec normal = Vec::Zero();  ///< out of the tool
+    struct Tool {
+        Frame rest;
+        std::vector<Bond> bonds;          ///< bonded
+        std::vector<TouchedSet> touched;  ///< one, or none if bonded
     };
 
-    void place_on_surface(Candidate& candidate, const Vec& local) const noexcept;
-    [[nodiscard]] Real depth(const Vec& local) const noexcept;
-    [[nodiscard]] bool beside(const Vec& local) const noexcept;
-    void list_constraints(const Frame& tool, const Field& predicted_m) noexcept;
+    void list_constraints(const NodeReader& predicted) noexcept;
+    [[nodiscard]] Frame moved(std::size_t tool, const Attempt& attempt) const noexcept;
 
-    ToolShape shape_;
-    ToolContact kind_;
-    Real radius_m_;
-    std::array<Real, 2> half_extents_m_;
-    Frame rest_frame_;
-    Real gap_tolerance_m_;
-    std::vector<Candidate> at_rest_, candidates_, before_;
+    BondedNodes bonded_nodes_;
+    std::vector<Tool> tools_;
+    Owners bonded_owners_, owners_;
     std::vector<Constraint> constraints_;
-    std::vector<std::size_t> candidate_of_;  ///< [constraints]
+    std::vector<ToolLoad> loads_;
+    std::vector<Frame> predicted_;  ///< [tools]
+    int friction_updates_ = 0;
+    std::size_t fewest_violators_ = 0;
+    int passes_without_gain_ = 0;
 };
 
 }  // namespace knead::core

@@ -25,23 +25,59 @@ Element build_element(const Field& rest, const Tetrahedron& nodes, const Palette
     return element;
 }
 
-}  // namespace
+/// Free nodes in the asset's order, then those of each bonded tool, then the fixed ones. A node that two
+/// bonded tools list goes with the first.
+void number_nodes(const Asset& asset, const std::vector<std::size_t>& tools, Model& model) {
+    constexpr std::size_t kNobody = ~std::size_t{0};
+    std::vector<std::size_t> holder(asset.nodes_m.size(), kNobody);
+    for (std::size_t k = tools.size(); k-- > 0;) {
+        if (asset.tools[tools[k]].contact != ToolContact::bonded) continue;
+        for (const std::uint32_t node : asset.tools[tools[k]].nodes)
+            holder[node] = k;
+    }
+    std::uint32_t next = 0;
+    model.from_asset.resize(asset.nodes_m.size());
+    const auto number = [&](std::size_t who) {
+        const std::uint32_t begin = next;
+        for (std::uint32_t i = 0; i < asset.free_node_count; ++i) {
+            if (holder[i] == who) model.from_asset[i] = next++;
+        }
+        return Model::Range{begin, next};
+    };
+    model.free_count = number(kNobody).end;
+    for (std::size_t k = 0; k < tools.size(); ++k)
+        model.bonded.push_back(number(k));
+    model.moving_count = next;
+    for (std::size_t i = asset.free_node_count; i < asset.nodes_m.size(); ++i)
+        model.from_asset[i] = next++;
+}
 
-Model build_model(const Asset& asset) {
-    Model model;
-    model.free_count = asset.free_node_count;
-    model.rest_m.reserve(asset.nodes_m.size());
-    for (const Point& p : asset.nodes_m)
-        model.rest_m.emplace_back(p[0], p[1], p[2]);
+void add_elements(const Asset& asset, Model& model) {
     model.mass_kg.assign(asset.nodes_m.size(), 0);
     model.elements.reserve(asset.tetrahedra.size());
     for (std::size_t t = 0; t < asset.tetrahedra.size(); ++t) {
+        Tetrahedron nodes = asset.tetrahedra[t];
+        for (std::uint32_t& node : nodes)
+            node = model.from_asset[node];
         Real mass = 0;
         model.elements.push_back(
-            build_element(model.rest_m, asset.tetrahedra[t], asset.palette[asset.palette_index[t]], mass));
-        for (const std::uint32_t node : asset.tetrahedra[t])
+            build_element(model.rest_m, nodes, asset.palette[asset.palette_index[t]], mass));
+        for (const std::uint32_t node : nodes)
             model.mass_kg[node] += mass / 4;
     }
+}
+
+}  // namespace
+
+Model build_model(const Asset& asset, const std::vector<std::size_t>& tools) {
+    Model model;
+    number_nodes(asset, tools, model);
+    model.rest_m.resize(asset.nodes_m.size());
+    for (std::size_t i = 0; i < asset.nodes_m.size(); ++i) {
+        const Point& p = asset.nodes_m[i];
+        model.rest_m[model.from_asset[i]] = Vec(p[0], p[1], p[2]);
+    }
+    add_elements(asset, model);
     for (std::uint32_t i = 0; i < model.free_count; ++i)
         model.free_mass_kg += model.mass_kg[i];
     Vec low = model.rest_m.front(), high = low;

@@ -20,19 +20,28 @@ struct Element {
 
 /// The constant data of one object: what the asset says, in the form that steps use.
 ///
-/// Nodes in asset order; [0, free_count) move. Built once; read by everything, changed by nothing.
+/// Nodes are numbered anew: [0, free_count) are unknowns, in the asset's (nested-dissection) order; those of
+/// bonded tool k stand in bonded[k]; the rest are fixed. Built once; read by everything, changed by nothing.
 struct Model {
+    struct Range {
+        std::uint32_t begin = 0, end = 0;
+    };
+
     std::vector<Element> elements;
     Field rest_m;               ///< [nodes]
     std::vector<Real> mass_kg;  ///< [nodes] a quarter of each tetrahedron's mass to each of its nodes
     std::uint32_t free_count = 0;
-    Real free_mass_kg = 0;  ///< of the free nodes together
-    Real size_m = 0;        ///< diagonal of the rest state's bounding box
+    std::uint32_t moving_count = 0;        ///< free ones and those of bonded tools
+    std::vector<Range> bonded;             ///< [tools] nodes that the tool carries; empty unless it is bonded
+    std::vector<std::uint32_t> from_asset;  ///< [nodes] number here of each node of the asset
+    Real free_mass_kg = 0;                 ///< of the free nodes together
+    Real size_m = 0;                       ///< diagonal of the rest state's bounding box
     Vec gravity_m_per_s2 = Vec::Zero();
     Real damping_per_s = 0;  ///< mass-proportional
 };
 
 /// @param asset valid (validate() said so)
-Model build_model(const Asset& asset);
+/// @param tools the asset's tools that are simulated, by index
+Model build_model(const Asset& asset, const std::vector<std::size_t>& tools);
 
 }  // namespace knead::core

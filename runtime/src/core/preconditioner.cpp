@@ -1,59 +1,315 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/preconditioner.h"
 
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
 namespace knead::core {
 namespace {
 
-/// Inverse of a symmetric positive definite block by its cofactors.
-Mat inverse(const Mat& m) {
-    Mat result;
-    result.row(0) = m.col(1).cross(m.col(2));
-    result.row(1) = m.col(2).cross(m.col(0));
-    result.row(2) = m.col(0).cross(m.col(1));
-    return result / result.row(0).dot(m.col(0));
+/// A dt that differs by no more than this factor is as good as the one the numbers were made for: the condition
+/// number becomes its square at most.
+constexpr Real kSameDt = 1.25;
+/// Steps that must ask for about the same other dt before numbers are made for it: jitter does not last.
+constexpr int kLastingSteps = 8;
+/// Work on new numbers, floating-point operations per second of simulated time: some 5 % of a core.
+constexpr Real kWorkPerSecond = 1e9;
+/// Shares of the nodes whose rotations are taken anew, one share in each step.
+constexpr std::uint32_t kRotationShares = 32;
+/// Shares of the blocks of block Jacobi that are made anew in each step for another dt.
+constexpr std::uint32_t kBlockShares = 16;
+/// Beyond this contrast stiff matter must be followed at once: a lag of its rotation weighs too much.
+constexpr double kLaggingContrast = 1e3;
+
+bool about_same(Real a, Real b) {
+    return a <= kSameDt * b && b <= kSameDt * a;
+}
+
+FactorStorage stored(knead::FactorStorage storage) {
+    switch (storage) {
+        case knead::FactorStorage::half:
+            return FactorStorage::fixed_point_16;
+        case knead::FactorStorage::float32:
+            return FactorStorage::single_precision;
+        case knead::FactorStorage::float64:
+            break;
+    }
+    return FactorStorage::double_precision;
+}
+
+/// Bound of the largest eigenvalue of every node's diagonal block of K.
+std::vector<Real> node_stiffnesses(const Model& model) {
+    std::vector<Real> result(model.free_count, 0);
+    for (const Element& element : model.elements) {
+        const Real modulus = 2 * element.mu_volume + element.lambda_volume;
+        const Vec first = -element.rest_inverse.colwise().sum();
+        for (int k = 0; k < 4; ++k) {
+            const std::uint32_t node = element.nodes[static_cast<std::size_t>(k)];
+            const Real squared =
+                k == 0 ? first.squaredNorm() : Real(element.rest_inverse.row(k - 1).squaredNorm());
+            if (node < model.free_count) result[node] += modulus * squared;
+        }
+    }
+    return result;
 }
 
 }  // namespace
 
-BlockJacobi::BlockJacobi(const Model& model)
-    : inverse_blocks_(model.rest_m.size(), Mat::Zero()),
-      columns_(model.rest_m.size(), Mat::Zero()),
-      marked_(model.rest_m.size(), 0) {}
+template <class S>
+Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, const Numerics& numerics,
+                                  SimdTarget target, Real dt_s)
+    : model_(model),
+      fields_(kernels(target).field<S>()),
+      masses_(model),
+      dt_s_(dt_s),
+      inertia_(1 + model.damping_per_s * dt_s),
+      rotation_shares_(numerics.contrast <= kLaggingContrast ? kRotationShares : 1),
+      rotations_(model),
+      matrix_(model, numerics.preconditioner == knead::Preconditioner::laplacian ? RestMatrix::Kind::laplacian
+                                                                              : RestMatrix::Kind::elastic),
+      packed_float_(3 * model.free_count),
+      packed_double_(3 * model.free_count),
+      node_stiffness_(node_stiffnesses(model)),
+      held_stiffness_(model.bonded.size(), 0),
+      tool_inverse_(model.bonded.size(), Mat::Zero()) {
+    matrix_.set(dt_s_, inertia_);
+    if (numerics.preconditioner != knead::Preconditioner::block_jacobi) {
+        // More exact storage where the numbers do not fit; block Jacobi where nothing is positive definite.
+        for (const knead::FactorStorage storage :
+             {knead::FactorStorage::half, knead::FactorStorage::float32, knead::FactorStorage::float64}) {
+            if (storage >= numerics.factor_storage && make_factor(stored(storage), target)) break;
+        }
+    }
+    if (!factor_ && turns()) {
+        blocks_.resize(model.free_count);
+        make_blocks(0, 1);
+    }
+    find_borders(elements);
+    find_responses();
+    reset();
+}
 
-void BlockJacobi::refresh(const System& system) noexcept {
-    system.pass.diagonal_blocks(system.model, inverse_blocks_);
+template <class S>
+bool Preconditioner<S>::make_factor(FactorStorage storage, SimdTarget target) {
+    factor_ = std::make_unique<SupernodalFactor>(matrix_.pattern(), matrix_.block_size(), storage, target);
+    if (!factor_->factorise(matrix_.values())) {
+        factor_.reset();
+        return false;
+    }
+    scratch_ = std::make_unique<SupernodalFactor::Scratch>(*factor_);
+    return true;
+}
+
+template <class S>
+void Preconditioner<S>::make_blocks(std::uint32_t first, std::uint32_t stride) noexcept {
+    const MatrixPattern& pattern = matrix_.pattern();
+    for (std::uint32_t i = first; i < model_.free_count; i += stride) {
+        const double* const value = matrix_.values() + std::size_t{9} * pattern.column_begin[i];
+        const Mat block = Eigen::Map<const Eigen::Matrix3d>(value).inverse();
+        for (int k = 0; k < 9; ++k)
+            blocks_[i][static_cast<std::size_t>(k)] = static_cast<S>(block(k / 3, k % 3));
+    }
+}
+
+template <class S>
+void Preconditioner<S>::find_borders(Elements<S>& elements) {
+    borders_.resize(model_.bonded.size());
+    NodeField<S> motion(model_.rest_m.size()), forces(model_.rest_m.size());
+    elements.linearise(S(1), motion, forces);  // at rest
+    for (std::size_t k = 0; k < borders_.size(); ++k) {
+        const Model::Range nodes = model_.bonded[k];
+        if (nodes.begin == nodes.end) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+            motion.fill_zero();
+            for (std::uint32_t i = nodes.begin; i < nodes.end; ++i)
+                motion.set(i, Vec::Unit(axis));
+            NodeField<S>& force = borders_[k].force[static_cast<std::size_t>(axis)];
+            force = NodeField<S>(model_.rest_m.size());
+            elements.add_stiffness(S(1), motion, force);
+            for (std::uint32_t i = nodes.begin; i < nodes.end; ++i)
+                borders_[k].stiffness.col(axis) += force.get(i);
+            for (std::size_t i = model_.free_count; i < model_.rest_m.size(); ++i)
+                force.set(i, Vec::Zero());
+            borders_[k].response[static_cast<std::size_t>(axis)] = NodeField<S>(model_.rest_m.size());
+        }
+    }
+    elements.reset();
+}
+
+template <class S>
+void Preconditioner<S>::find_responses() noexcept {
+    const Real dt2 = dt_s_ * dt_s_;
+    for (Border& border : borders_) {
+        if (border.force[0].size() == 0) continue;
+        if (!factor_) {
+            // Block Jacobi knows no response: the bound with all free nodes still.
+            border.sensitivity = dt2 * border.stiffness.trace();
+            continue;
+        }
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            solve(border.force[axis], border.response[axis]);
+            fields_.scale(border.response[axis].size(), static_cast<S>(dt2), border.response[axis].data());
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) {
+                border.following_kg(static_cast<int>(i), static_cast<int>(j)) =
+                    dt2 * static_cast<Real>(fields_.dot(border.force[i].size(), border.force[i].data(),
+                                                        border.response[j].data()));
+            }
+        }
+        border.following_kg = (0.5 * (border.following_kg + border.following_kg.transpose())).eval();
+        border.sensitivity = Eigen::SelfAdjointEigenSolver<Mat>()
+                                 .computeDirect(border.following_kg, Eigen::EigenvaluesOnly)
+                                 .eigenvalues()
+                                 .maxCoeff();
+    }
+}
+
+template <class S>
+void Preconditioner<S>::reset() noexcept {
+    rotations_.reset();
+}
+
+template <class S>
+void Preconditioner<S>::begin_step(const System<S>& system) noexcept {
+    if (turns()) rotations_.update(system.elements, rotation_shares_);
+    follow(system.dt_s, system.inertia);
+}
+
+/// Numbers for another dt, once it lasts.
+template <class S>
+void Preconditioner<S>::follow(Real dt_s, Real inertia) noexcept {
+    if (!working_) {
+        if (about_same(dt_s, dt_s_)) {
+            steps_wanted_ = 0;
+            return;
+        }
+        steps_wanted_ = about_same(dt_s, wanted_dt_s_) ? steps_wanted_ + 1 : 1;
+        wanted_dt_s_ = dt_s;
+        wanted_inertia_ = inertia;
+        if (steps_wanted_ < kLastingSteps) return;
+        matrix_.set(wanted_dt_s_, wanted_inertia_);
+        if (factor_) factor_->begin(matrix_.values());
+        next_block_ = 0;
+        working_ = true;
+        return;
+    }
+    if (factor_) {
+        const Progress progress = factor_->advance(static_cast<std::uint64_t>(kWorkPerSecond * dt_s));
+        if (progress == Progress::working) return;
+        working_ = false;
+        steps_wanted_ = 0;
+        if (progress == Progress::refused) return;
+    } else {
+        make_blocks(next_block_++, kBlockShares);
+        if (next_block_ < kBlockShares) return;
+        working_ = false;
+        steps_wanted_ = 0;
+    }
+    dt_s_ = wanted_dt_s_;
+    inertia_ = wanted_inertia_;
+    find_responses();
+}
+
+template <class S>
+void Preconditioner<S>::hold(const System<S>& system) noexcept {
+    for (std::size_t k = 0; k < system.tools.size(); ++k) {
+        held_stiffness_[k] = 0;
+        const bool bonded = borders_[k].force[0].size() > 0;
+        const Mat felt = dt_s_ * dt_s_ * borders_[k].stiffness - borders_[k].following_kg;
+        tool_inverse_[k] = system.tool_diagonal_kg(k) * Mat::Identity();
+        if (bonded) tool_inverse_[k] += felt;
+    }
     const Real dt2 = system.dt_s * system.dt_s;
-    for (std::uint32_t i = 0; i < system.model.free_count; ++i) {
-        Mat block = dt2 * inverse_blocks_[i];
-        block.diagonal().array() += system.inertia * system.model.mass_kg[i];
-        inverse_blocks_[i] = inverse(block);
+    for (const Constraint& c : system.constraints) {
+        held_stiffness_[c.tool] += node_stiffness_[c.node];
+        tool_inverse_[c.tool] +=
+            (system.inertia * model_.mass_kg[c.node] + dt2 * node_stiffness_[c.node]) * c.held;
+    }
+    for (std::size_t k = 0; k < system.tools.size(); ++k) {
+        if (system.tools[k].moves) tool_inverse_[k] = Mat(tool_inverse_[k].inverse());
     }
 }
 
-void BlockJacobi::hold(const System& system) noexcept {
-    tool_stiffness_.setZero();
-    Mat tool_block = system.tool_diagonal_kg() * Mat::Identity();
-    for (const Constraint& c : system.constraints) {
-        columns_[c.node] = c.held;
-        marked_[c.node] = 1;
-        tool_block += (system.inertia * system.model.mass_kg[c.node]) * c.held;
+template <class S>
+void Preconditioner<S>::apply(const System<S>& system, const Unknowns<S>& residual,
+                              Unknowns<S>& out) const noexcept {
+    solve(residual.nodes, out.nodes);
+    const std::size_t free = run_of(model_.free_count);
+    for (std::size_t k = 0; k < system.tools.size(); ++k) {
+        out.tools[k].setZero();
+        if (!system.tools[k].moves) continue;
+        const Border& border = borders_[k];
+        const bool follows = factor_ != nullptr && border.force[0].size() > 0;
+        Vec rest = residual.tools[k];
+        for (std::size_t axis = 0; follows && axis < 3; ++axis) {
+            rest[static_cast<int>(axis)] -= static_cast<Real>(
+                fields_.dot(free, border.response[axis].data(), residual.nodes.data()));
+        }
+        out.tools[k] = tool_inverse_[k] * rest;
+        for (std::size_t axis = 0; follows && axis < 3; ++axis) {
+            fields_.add_scaled(free, out.nodes.data(), static_cast<S>(-out.tools[k][static_cast<int>(axis)]),
+                               border.response[axis].data(), out.nodes.data());
+        }
     }
-    if (!system.constraints.empty()) {
-        tool_stiffness_ = system.pass.reduced_stiffness(system.model, columns_, marked_);
-    }
-    for (const Constraint& c : system.constraints) {
-        columns_[c.node].setZero();
-        marked_[c.node] = 0;
-    }
-    if (system.tool.moves) tool_inverse_ = inverse(tool_block + system.dt_s * system.dt_s * tool_stiffness_);
-}
-
-void BlockJacobi::apply(const System& system, const Unknowns& residual, Unknowns& out) const noexcept {
-    for (std::uint32_t i = 0; i < system.model.free_count; ++i) {
-        out.nodes[i].noalias() = inverse_blocks_[i] * residual.nodes[i];
-    }
-    out.tool = system.tool.moves ? Vec(tool_inverse_ * residual.tool) : Vec::Zero();
     system.expand(out);
 }
+
+template <class S>
+template <class T>
+void Preconditioner<S>::solve_with(AlignedArray<T>& packed, const NodeField<S>& residual,
+                                   NodeField<S>& out) const noexcept {
+    if (turns()) {
+        rotations_.turn_back(residual, packed.data());
+        factor_->solve(packed.data(), packed.data(), *scratch_);
+        rotations_.turn(packed.data(), out);
+        return;
+    }
+    for (std::size_t i = 0; i < model_.free_count; ++i) {
+        for (std::size_t k = 0; k < 3; ++k)
+            packed[3 * i + k] = static_cast<T>(residual.data()[4 * i + k]);
+    }
+    factor_->solve(packed.data(), packed.data(), *scratch_);
+    for (std::size_t i = 0; i < model_.free_count; ++i) {
+        for (std::size_t k = 0; k < 3; ++k)
+            out.data()[4 * i + k] = static_cast<S>(packed[3 * i + k]);
+    }
+}
+
+template <class S>
+void Preconditioner<S>::solve(const NodeField<S>& residual, NodeField<S>& out) const noexcept {
+    if (factor_ && factor_->storage() == FactorStorage::double_precision) {
+        solve_with(packed_double_, residual, out);
+    } else if (factor_) {
+        solve_with(packed_float_, residual, out);
+    } else if (blocks_.empty()) {
+        fields_.multiply(run_of(model_.free_count), masses_.per_kg.data(), S(1), residual.data(), out.data());
+    } else {
+        rotations_.precondition(blocks_, residual, out);
+    }
+}
+
+template <class S>
+Real Preconditioner<S>::force_sensitivity(const System<S>& system, std::size_t tool) const noexcept {
+    const ToolUnknown& unknown = system.tools[tool];
+    if (unknown.moves) {
+        return unknown.rate_n_per_m * unknown.rate_n_per_m / system.tool_diagonal_kg(tool);
+    }
+    const Real dt2 = system.dt_s * system.dt_s;
+    // The response grows with 1 / dt, so that of a shorter dt is a bound; of a longer one it is none.
+    const Real still = dt2 * borders_[tool].stiffness.trace();
+    const Real following = system.dt_s >= dt_s_ ? borders_[tool].sensitivity * (dt2 * dt2) /
+                                                      (dt_s_ * dt_s_ * dt_s_ * dt_s_)
+                                                : still;
+    return (std::min(still, following) + dt2 * held_stiffness_[tool]) / (dt2 * dt2);
+}
+
+template <class S>
+std::size_t Preconditioner<S>::factor_bytes() const noexcept {
+    return factor_ ? factor_->panel_bytes() : blocks_.size() * sizeof(blocks_[0]);
+}
+
+template class Preconditioner<float>;
+template class Preconditioner<double>;
 
 }  // namespace knead::core

@@ -2,155 +2,198 @@
 #include "core/solver.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace knead::core {
 namespace {
 
 /// Forces below this are not resolved relative to themselves (newtons): a thousandth of what a hand feels.
-constexpr Real kForceFloor = 1e-5;
-/// Iterations whose decrease estimates the error that is left, and the fewest that say anything.
-constexpr std::size_t kWindow = 4;
-constexpr int kFewestIterations = 2;
+constexpr Real kForceFloor_n = 1e-5;
+/// By how much the preconditioned residual may underestimate the error where it is believed.
+constexpr Real kTrust = 4;
 
-Real dot(const System& system, const Unknowns& a, const Unknowns& b) {
-    Real sum = a.tool.dot(b.tool);
-    for (std::uint32_t i = 0; i < system.model.free_count; ++i)
-        sum += a.nodes[i].dot(b.nodes[i]);
-    return sum;
-}
+/// What is known of the error: decreases of its squared energy norm in the last two iterations.
+struct Decreases {
+    Real last = 0, before = 0;
+    int count = 0;
 
-void add_scaled(const System& system, Real factor, const Unknowns& b, Unknowns& a) {
-    for (std::uint32_t i = 0; i < system.model.free_count; ++i)
-        a.nodes[i] += factor * b.nodes[i];
-    a.tool += factor * b.tool;
-}
-
-/// b = a + factor * b
-void update_direction(const System& system, const Unknowns& a, Real factor, Unknowns& b) {
-    for (std::uint32_t i = 0; i < system.model.free_count; ++i)
-        b.nodes[i] = a.nodes[i] + factor * b.nodes[i];
-    b.tool = a.tool + factor * b.tool;
-}
-
-/// Sum of the last kWindow decreases of the squared energy norm of the error.
-class ErrorEstimate {
-  public:
     void add(Real decrease) {
-        last_[count_ % kWindow] = decrease;
-        ++count_;
+        before = last;
+        last = decrease;
+        ++count;
     }
-    [[nodiscard]] Real squared() const {
-        Real sum = 0;
-        for (const Real decrease : last_)
-            sum += decrease;
-        return sum;
-    }
-
-  private:
-    std::array<Real, kWindow> last_{};
-    std::size_t count_ = 0;
 };
-
-Vec force_on_hand(const System& system, const Solution& solution) {
-    if (system.tool.moves) return system.tool.force_n + system.tool.rate_n_per_m * solution.displacement.tool;
-    Vec force = Vec::Zero();
-    for (std::size_t k = 0; k < system.constraints.size(); ++k) {
-        force += system.constraints[k].held * solution.reaction_n[k];
-    }
-    return force;
-}
-
-/// Largest squared force error for a unit of squared energy error, N^2 / (kg m^2).
-Real force_sensitivity(const System& system, const Preconditioner& preconditioner) {
-    if (system.tool.moves) {
-        return system.tool.rate_n_per_m * system.tool.rate_n_per_m / system.tool_diagonal_kg();
-    }
-    return preconditioner.tool_stiffness_n_per_m().trace() / (system.dt_s * system.dt_s);
-}
 
 }  // namespace
 
-Solver::Solver(const Model& model, std::size_t max_constraints)
+template <class S>
+Solver<S>::Solver(const Model& model, std::size_t tools, std::size_t max_constraints)
     : product_rows_(max_constraints, Vec::Zero()) {
-    for (Unknowns* u : {&residual_, &direction_, &product_, &preconditioned_}) {
-        u->nodes.assign(model.rest_m.size(), Vec::Zero());
+    for (Unknowns<S>* u : {&residual_, &direction_, &product_, &preconditioned_}) {
+        u->nodes = NodeField<S>(model.rest_m.size());
+        u->tools.assign(tools, Vec::Zero());
     }
 }
 
-void Solver::keep_rows(const System& system, const Unknowns& rows, std::vector<Vec>& kept) const noexcept {
+template <class S>
+Real Solver<S>::dot(const System<S>& system, const Unknowns<S>& a, const Unknowns<S>& b) const noexcept {
+    Real sum = static_cast<Real>(
+        system.fields.dot(run_of(system.model.free_count), a.nodes.data(), b.nodes.data()));
+    for (std::size_t k = 0; k < system.tools.size(); ++k) {
+        if (system.tools[k].moves) sum += a.tools[k].dot(b.tools[k]);
+    }
+    return sum;
+}
+
+template <class S>
+void Solver<S>::keep_rows(const System<S>& system, const NodeField<S>& rows,
+                          std::vector<Vec>& kept) const noexcept {
     for (std::size_t k = 0; k < system.constraints.size(); ++k)
-        kept[k] = rows.nodes[system.constraints[k].node];
+        kept[k] = rows.get(system.constraints[k].node);
 }
 
-void Solver::start(const System& system, const Field& load, Solution& solution) noexcept {
-    Unknowns& d = solution.displacement;
-    if (!system.tool.moves) d.tool.setZero();
-    for (const Constraint& c : system.constraints) {
-        Vec& node = d.nodes[c.node];
-        node += c.held * (d.tool + c.offset_m - node);
-    }
-    system.apply(d.nodes, product_.nodes);
-    for (std::uint32_t i = 0; i < system.model.free_count; ++i) {
-        residual_.nodes[i] = load[i] - product_.nodes[i];
-    }
-    residual_.tool.setZero();
-    if (system.tool.moves) {
-        const Real dt2 = system.dt_s * system.dt_s;
-        residual_.tool = -dt2 * system.tool.force_n - system.tool_diagonal_kg() * d.tool;
-    }
-    keep_rows(system, residual_, solution.reaction_n);
+template <class S>
+void Solver<S>::find_forces(const System<S>& system, Solution<S>& solution) const noexcept {
     const Real to_newtons = 1 / (system.dt_s * system.dt_s);
-    for (std::size_t k = 0; k < system.constraints.size(); ++k)
-        solution.reaction_n[k] *= to_newtons;
+    for (std::size_t k = 0; k < system.tools.size(); ++k) {
+        const ToolUnknown& tool = system.tools[k];
+        Vec& force = solution.force_n[k];
+        if (tool.moves) {
+            force = tool.force_n + tool.rate_n_per_m * solution.displacement.tools[k];
+            continue;
+        }
+        force.setZero();
+        for (std::uint32_t i = system.model.bonded[k].begin; i < system.model.bonded[k].end; ++i)
+            force += residual_.nodes.get(i);
+        force *= to_newtons;
+    }
+    for (std::size_t c = 0; c < system.constraints.size(); ++c) {
+        const Constraint& constraint = system.constraints[c];
+        if (!system.tools[constraint.tool].moves)
+            solution.force_n[constraint.tool] += force_on_tool(constraint, solution.row_n[c]);
+    }
+}
+
+template <class S>
+bool Solver<S>::small_enough(const System<S>& system, const Preconditioner<S>& preconditioner,
+                             const SolverLimits& limits, const Solution<S>& solution,
+                             Real squared_error) const noexcept {
+    const Real drift = limits.velocity_tolerance_m_per_s * system.dt_s;
+    if (!(squared_error <= system.model.free_mass_kg * drift * drift)) return false;
+    for (std::size_t k = 0; k < system.tools.size(); ++k) {
+        const Real bound = limits.force_tolerance * std::max(solution.force_n[k].norm(), kForceFloor_n);
+        if (!(preconditioner.force_sensitivity(system, k) * squared_error <= bound * bound)) return false;
+    }
+    return true;
+}
+
+template <class S>
+void Solver<S>::start(const System<S>& system, const NodeField<S>& load, Solution<S>& solution) noexcept {
+    Unknowns<S>& d = solution.displacement;
+    for (std::size_t k = 0; k < system.tools.size(); ++k) {
+        if (!system.tools[k].moves) d.tools[k].setZero();
+    }
+    for (const Constraint& c : system.constraints) {
+        const Vec node = d.nodes.get(c.node);
+        d.nodes.set(c.node, node + c.held * (d.tools[c.tool] + c.offset_m - node));
+    }
+    if (solution.from_zero && system.constraints.empty()) {
+        residual_.nodes.copy(load);
+    } else {
+        system.apply(d, product_.nodes);
+        system.fields.add_scaled(load.size(), load.data(), S(-1), product_.nodes.data(),
+                                 residual_.nodes.data());
+    }
+    solution.from_zero = false;
+    const Real dt2 = system.dt_s * system.dt_s;
+    for (std::size_t k = 0; k < system.tools.size(); ++k) {
+        const ToolUnknown& tool = system.tools[k];
+        residual_.tools[k].setZero();
+        if (tool.moves)
+            residual_.tools[k] = -dt2 * tool.force_n - system.tool_diagonal_kg(k) * d.tools[k];
+    }
+    keep_rows(system, residual_.nodes, solution.row_n);
+    for (std::size_t k = 0; k < system.constraints.size(); ++k) {
+        const Constraint& c = system.constraints[k];
+        solution.row_n[k] /= dt2;
+        residual_.nodes.add(c.node, dt2 * c.friction_n);
+    }
     system.project(residual_);
 }
 
-void Solver::solve(const System& system, const Preconditioner& preconditioner, const Field& load,
-                   const SolverLimits& limits, Solution& solution) noexcept {
+template <class S>
+void Solver<S>::solve(const System<S>& system, const Preconditioner<S>& preconditioner,
+                      const NodeField<S>& load, const SolverLimits& limits,
+                      Solution<S>& solution) noexcept {
     start(system, load, solution);
-    const Real sensitivity = force_sensitivity(system, preconditioner);
-    const Real drift = limits.velocity_tolerance_m_per_s * system.dt_s;
-    const Real drift_bound = system.model.free_mass_kg * drift * drift;
+    const FieldKernels<S>& fields = system.fields;
+    const std::size_t moving = run_of(system.model.moving_count);
+    const std::size_t free = run_of(system.model.free_count);
     const Real to_newtons = 1 / (system.dt_s * system.dt_s);
-    const auto small_enough = [&](Real error) {
-        const Real force_bound = limits.force_tolerance * std::max(solution.force_n.norm(), kForceFloor);
-        return error <= drift_bound && sensitivity * error <= force_bound * force_bound;
-    };
-
-    ErrorEstimate estimate;
+    Decreases decreases;
     solution.converged = false;
     preconditioner.apply(system, residual_, preconditioned_);
     std::swap(direction_, preconditioned_);
     Real rz = dot(system, residual_, direction_);
-    for (solution.iterations = 0; solution.iterations < limits.max_iterations; ++solution.iterations) {
+    for (solution.iterations = 0; solution.iterations < limits.max_iterations;) {
         if (rz == 0) solution.converged = true;  // nothing left to do, exactly
         if (!(rz > 0)) break;                    // negative or not a number: a failure, never convergence
-        if (solution.iterations >= kFewestIterations && small_enough(estimate.squared())) {
-            solution.converged = true;
-            break;
+        system.apply(direction_, product_.nodes);
+        keep_rows(system, product_.nodes, product_rows_);
+        for (std::size_t k = 0; k < system.tools.size(); ++k) {
+            if (system.tools[k].moves)
+                product_.tools[k] = system.tool_diagonal_kg(k) * direction_.tools[k];
         }
-        system.apply(direction_.nodes, product_.nodes);
-        product_.tool = system.tool.moves ? Vec(system.tool_diagonal_kg() * direction_.tool) : Vec::Zero();
-        keep_rows(system, product_, product_rows_);
         system.project(product_);
         const Real curvature = dot(system, direction_, product_);
         if (!(curvature > 0)) break;
         const Real alpha = rz / curvature;
-        add_scaled(system, alpha, direction_, solution.displacement);
-        add_scaled(system, -alpha, product_, residual_);
-        for (std::size_t k = 0; k < system.constraints.size(); ++k) {
-            solution.reaction_n[k] -= (alpha * to_newtons) * product_rows_[k];
+        ++solution.iterations;
+        decreases.add(alpha * rz);
+
+        const Real bound =
+            static_cast<Real>(fields.advance(moving, static_cast<S>(alpha), direction_.nodes.data(),
+                                             product_.nodes.data(), system.masses.per_kg.data(),
+                                             solution.displacement.nodes.data(), residual_.nodes.data())) /
+            system.inertia;
+        Real tool_bound = 0;
+        for (std::size_t k = 0; k < system.tools.size(); ++k) {
+            if (!system.tools[k].moves) continue;
+            solution.displacement.tools[k] += alpha * direction_.tools[k];
+            residual_.tools[k] -= alpha * product_.tools[k];
+            tool_bound += residual_.tools[k].squaredNorm() / system.tool_diagonal_kg(k);
         }
-        solution.force_n = force_on_hand(system, solution);
-        estimate.add(alpha * rz);
+        for (std::size_t k = 0; k < system.constraints.size(); ++k)
+            solution.row_n[k] -= (alpha * to_newtons) * product_rows_[k];
+        find_forces(system, solution);
+        if (small_enough(system, preconditioner, limits, solution, bound + tool_bound)) {
+            solution.converged = true;
+            break;
+        }
+
         preconditioner.apply(system, residual_, preconditioned_);
         const Real next = dot(system, residual_, preconditioned_);
-        update_direction(system, preconditioned_, next / rz, direction_);
+        const bool believed =
+            limits.trusts_preconditioner
+                ? next >= 0 && small_enough(system, preconditioner, limits, solution, kTrust * next)
+                : decreases.count >= 2 && next >= 0 &&
+                      small_enough(system, preconditioner, limits, solution,
+                                   decreases.last + decreases.before);
+        if (believed) {
+            solution.converged = true;
+            break;
+        }
+        const Real beta = next / rz;
+        fields.add_scaled(free, preconditioned_.nodes.data(), static_cast<S>(beta), direction_.nodes.data(),
+                          direction_.nodes.data());
+        for (std::size_t k = 0; k < system.tools.size(); ++k)
+            direction_.tools[k] = preconditioned_.tools[k] + beta * direction_.tools[k];
         rz = next;
     }
-    solution.force_n = force_on_hand(system, solution);
+    find_forces(system, solution);
 }
+
+template class Solver<float>;
+template class Solver<double>;
 
 }  // namespace knead::core

@@ -7,41 +7,55 @@ namespace knead::core {
 
 struct SolverLimits {
     int max_iterations = 500;
-    Real force_tolerance = 1e-4;             ///< relative, of the force on the hand
+    Real force_tolerance = 1e-3;             ///< relative, of the force on each tool
     Real velocity_tolerance_m_per_s = 1e-4;  ///< root mean square over the free mass
+    /// Whether the preconditioned residual may be believed as a measure of the error. Where stiffnesses are
+    /// far apart it may be far too small.
+    bool trusts_preconditioner = false;
 };
 
-/// In: where to start. Out: the solution of one linear system and what the tool feels in it.
+/// In: where to start. Out: the solution of one linear system and what the tools feel in it.
+template <class S>
 struct Solution {
-    Unknowns displacement;  ///< expanded
-    std::vector<Vec>
-        reaction_n;  ///< [constraints] force of the object on the tool at each held node, all of its row
-    Vec force_n = Vec::Zero();  ///< on the hand: sum of the held reactions, or the coupling's force
+    Unknowns<S> displacement;  ///< expanded
+    bool from_zero = false;    ///< in: the displacement is zero everywhere
+    /// [constraints] force of the object on the tool at each held node: all of its row, before friction.
+    std::vector<Vec> row_n;
+    std::vector<Vec> force_n;  ///< [tools] on the hand: sum of the held rows, or the coupling's force
     int iterations = 0;
     bool converged = false;
 };
 
 /// Conjugate gradients that stop on the force and on the velocities.
 ///
-/// The error in the energy norm is estimated by the decrease of the last iterations (Hestenes and Stiefel
-/// 1952; Strakos and Tichy 2002). It bounds the error of the tool's force through the stiffness the tool
-/// feels, and the velocity error through the mass; the force alone would let soft nodes drift. Allocates in
-/// the constructor only.
+/// The squared energy norm of the error, e^T A e = r^T A^-1 r, bounds the error of a tool's force through the
+/// stiffness that the tool feels, and the error of the velocities through the mass; the force alone would let
+/// soft nodes drift. It is bounded from above by r^T M^-1 r, because A - M is positive semidefinite; where
+/// that is not small enough, it is estimated by the preconditioned residual or by the decrease of the last
+/// iterations (Hestenes and Stiefel 1952; Strakos and Tichy 2002). Allocates in the constructor only.
+template <class S>
 class Solver {
   public:
-    Solver(const Model& model, std::size_t max_constraints);
+    Solver(const Model& model, std::size_t tools, std::size_t max_constraints);
 
-    /// @param load [nodes] b; the tool's load follows from system.tool
-    /// @param solution in: a start, whatever is held; reaction_n has room for all constraints
-    void solve(const System& system, const Preconditioner& preconditioner, const Field& load,
-               const SolverLimits& limits, Solution& solution) noexcept;
+    /// @param load [nodes] b; the tools' load follows from system.tools
+    /// @param solution in: a start, whatever is held; row_n has room for all constraints
+    void solve(const System<S>& system, const Preconditioner<S>& preconditioner, const NodeField<S>& load,
+               const SolverLimits& limits, Solution<S>& solution) noexcept;
+
+    /// b - A d of the last solve. Rows of bonded tools' nodes are what the tools carry, kg m.
+    [[nodiscard]] const NodeField<S>& residual() const noexcept { return residual_.nodes; }
 
   private:
-    void start(const System& system, const Field& load, Solution& solution) noexcept;
-    /// Rows of held nodes, before they are projected: the tool's reaction comes from here.
-    void keep_rows(const System& system, const Unknowns& rows, std::vector<Vec>& kept) const noexcept;
+    void start(const System<S>& system, const NodeField<S>& load, Solution<S>& solution) noexcept;
+    void keep_rows(const System<S>& system, const NodeField<S>& rows, std::vector<Vec>& kept) const noexcept;
+    void find_forces(const System<S>& system, Solution<S>& solution) const noexcept;
+    [[nodiscard]] bool small_enough(const System<S>& system, const Preconditioner<S>& preconditioner,
+                                    const SolverLimits& limits, const Solution<S>& solution,
+                                    Real squared_error) const noexcept;
+    [[nodiscard]] Real dot(const System<S>& system, const Unknowns<S>& a, const Unknowns<S>& b) const noexcept;
 
-    Unknowns residual_, direction_, product_, preconditioned_;
+    Unknowns<S> residual_, direction_, product_, preconditioned_;
     std::vector<Vec> product_rows_;
 };
 

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact.h"
+#include "core/denormals.h"
+#include "core/solver.h"
+
 namespace knead::core {
 namespace {
 
@@ -11,9 +15,14 @@ namespace {
 constexpr double kStepSlack = 1e-9;
 /// How far the norm of a unit quaternion may be from one.
 constexpr double kUnitTolerance = 1e-3;
-/// Root mean square of the velocity error that never is exceeded, whatever the force tolerance
-/// (runtime.md 3.3).
+/// Root mean square of the velocity error that never is exceeded, whatever the force tolerance.
 constexpr double kVelocityTolerance_m_per_s = 1e-4;
+/// Friction may miss Coulomb's law by this many times the relative force tolerance: it is only a part of the
+/// force, and each of its updates costs a solve.
+constexpr double kConePerForceTolerance = 10;
+/// Where a preconditioned residual is a fair measure of the error.
+constexpr double kTrustedContrast = 1e3;
+constexpr double kTrustedPoissonsRatio = 0.45;
 
 bool valid_step(double dt_s) {
     return dt_s >= kSmallestStep_s * (1 - kStepSlack) && dt_s <= kLargestStep_s * (1 + kStepSlack);
@@ -34,142 +43,415 @@ Vec3 to_array(const Vec& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-}  // namespace
+/// The simulated tools, their nodes numbered as in the model.
+std::vector<ToolSet> renumbered(const Asset& asset, const std::vector<std::size_t>& tools,
+                                const Model& model) {
+    std::vector<ToolSet> result;
+    for (const std::size_t k : tools) {
+        result.push_back(asset.tools[k]);
+        for (std::uint32_t& node : result.back().nodes)
+            node = model.from_asset[node];
+        std::sort(result.back().nodes.begin(), result.back().nodes.end());
+    }
+    return result;
+}
 
-Stepper::Stepper(const Asset& asset, const SimulationConfig& config)
+template <class S>
+class TypedStepper final : public Stepper {
+  public:
+    TypedStepper(const Asset& asset, const SimulationConfig& config, const Numerics& numerics,
+                 SimdTarget target);
+
+    StepResult step(const Pose* poses, double dt_s) noexcept override;
+    [[nodiscard]] const ToolResult& tool(std::size_t index) const noexcept override {
+        return results_[index];
+    }
+    void reset() noexcept override;
+    [[nodiscard]] std::size_t tool_count() const noexcept override { return tools_.size(); }
+    [[nodiscard]] std::size_t node_count() const noexcept override { return model_.rest_m.size(); }
+    void positions_m(double* out) const noexcept override;
+    void velocities_m_per_s(double* out) const noexcept override;
+    [[nodiscard]] std::size_t factor_bytes() const noexcept override {
+        return preconditioner_.factor_bytes();
+    }
+
+  private:
+    /// A tool between steps and in the one under way.
+    struct Tool {
+        Frame frame;  ///< predicted
+        Vec position = Vec::Zero(), velocity = Vec::Zero(), hand = Vec::Zero();  ///< after the last step
+        /// Of the nodes bonded to it: place in the tool's frame, velocity, and displacement (all in double,
+        /// because a force is read from their changes).
+        std::vector<Vec> anchors, displacements_m, velocities, next_m;
+    };
+
+    void predict(const Frame* hands, Real dt) noexcept;
+    void couple(Tool& tool, ToolUnknown& unknown, const Frame& hand, Real dt) const noexcept;
+    void predict_bonded(std::size_t k, Real dt) noexcept;
+    void linearise(const System<S>& system) noexcept;
+    std::uint32_t solve_with_contact(const System<S>& system) noexcept;
+    [[nodiscard]] bool settled(const SolverLimits& limits, std::uint32_t& status) noexcept;
+    [[nodiscard]] bool finite() const noexcept;
+    void accept(const Frame* hands, Real dt, bool failed) noexcept;
+    void find_results(Real dt) noexcept;
+    StepResult refuse(std::uint32_t status) noexcept;
+    [[nodiscard]] StepResult result(std::uint32_t status) const noexcept;
+    [[nodiscard]] Real travel_m() const noexcept;
+    [[nodiscard]] bool coupled() const noexcept { return config_.coupling_stiffness_n_per_m > 0; }
+
+    const SimulationConfig config_;
+    const Kernels& kernels_;
+    const FieldKernels<S>& fields_;
+    const Model model_;
+    const Masses<S> masses_;
+    Elements<S> elements_;
+    Contact contact_;
+    Preconditioner<S> preconditioner_;
+    Solver<S> solver_;
+    const bool trusts_preconditioner_;
+    const bool unilateral_;  ///< some tool is
+
+    // State: what a step starts from.
+    NodeField<S> displacements_, velocities_;
+    std::vector<Tool> tools_;
+
+    // Of the step under way.
+    NodeField<S> predicted_, load_;
+    std::vector<Frame> hands_, frames_;
+    std::vector<ToolUnknown> unknowns_;
+    Solution<S> solution_;
+    std::uint32_t iterations_ = 0;
+    std::vector<ToolResult> results_;
+};
+
+template <class S>
+TypedStepper<S>::TypedStepper(const Asset& asset, const SimulationConfig& config, const Numerics& numerics,
+                              SimdTarget target)
     : config_(config),
-      model_(build_model(asset)),
-      pass_(model_),
-      contact_(asset.tools[config.tool], model_),
-      preconditioner_(model_),
-      solver_(model_, contact_.max_constraints()) {
-    const std::size_t nodes = model_.rest_m.size();
-    positions_.resize(nodes);
-    velocities_.resize(nodes);
-    predicted_.resize(nodes);
-    load_.resize(nodes);
-    solution_.displacement.nodes.resize(nodes);
-    solution_.reaction_n.assign(contact_.max_constraints(), Vec::Zero());
+      kernels_(kernels(target)),
+      fields_(kernels_.field<S>()),
+      model_(build_model(asset, config.tools)),
+      masses_(model_),
+      elements_(model_, kernels_),
+      contact_(renumbered(asset, config.tools, model_), model_, BondedNodes::left_out),
+      preconditioner_(model_, elements_, numerics, target, config.expected_dt_s),
+      solver_(model_, config.tools.size(), contact_.max_constraints()),
+      trusts_preconditioner_(numerics.contrast <= kTrustedContrast &&
+                             numerics.max_poissons_ratio <= kTrustedPoissonsRatio &&
+                             numerics.preconditioner == knead::Preconditioner::factor),
+      unilateral_(std::any_of(config.tools.begin(), config.tools.end(), [&](std::size_t k) {
+          return asset.tools[k].contact != ToolContact::bonded;
+      })) {
+    const std::size_t nodes = model_.rest_m.size(), count = config.tools.size();
+    for (NodeField<S>* field :
+         {&displacements_, &velocities_, &predicted_, &load_, &solution_.displacement.nodes}) {
+        *field = NodeField<S>(nodes);
+    }
+    tools_.resize(count);
+    hands_.resize(count);
+    frames_.resize(count);
+    unknowns_.resize(count);
+    results_.resize(count);
+    solution_.displacement.tools.assign(count, Vec::Zero());
+    solution_.force_n.assign(count, Vec::Zero());
+    solution_.row_n.assign(contact_.max_constraints(), Vec::Zero());
+    for (std::size_t k = 0; k < count; ++k) {
+        const Model::Range bonded = model_.bonded[k];
+        Tool& tool = tools_[k];
+        for (std::uint32_t i = bonded.begin; i < bonded.end; ++i)
+            tool.anchors.push_back(contact_.rest_frame(k).to_local(model_.rest_m[i]));
+        tool.displacements_m = tool.velocities = tool.next_m = tool.anchors;
+    }
     reset();
 }
 
-void Stepper::reset() noexcept {
-    positions_ = model_.rest_m;
-    std::fill(velocities_.begin(), velocities_.end(), Vec::Zero());
-    tool_position_ = hand_position_ = contact_.rest_frame().position;
-    tool_velocity_.setZero();
-    pass_.reset();
+template <class S>
+void TypedStepper<S>::reset() noexcept {
+    displacements_.fill_zero();
+    velocities_.fill_zero();
+    elements_.reset();
     contact_.reset();
+    preconditioner_.reset();
+    for (std::size_t k = 0; k < tools_.size(); ++k) {
+        Tool& tool = tools_[k];
+        tool.position = tool.hand = contact_.rest_frame(k).position;
+        tool.velocity.setZero();
+        std::fill(tool.displacements_m.begin(), tool.displacements_m.end(), Vec::Zero());
+        std::fill(tool.velocities.begin(), tool.velocities.end(), Vec::Zero());
+        results_[k] = {};
+        results_[k].tool_position_m = to_array(tool.position);
+    }
 }
 
-StepResult Stepper::step(const Pose& pose, double dt_s) noexcept {
-    Frame hand;
-    if (!valid_step(dt_s) || !to_frame(pose, hand)) return refuse(kStepBadInput);
-    const Real dt = dt_s;
+template <class S>
+StepResult TypedStepper<S>::step(const Pose* poses, double dt_s) noexcept {
+    if (!valid_step(dt_s)) return refuse(kStepBadInput);
+    for (std::size_t k = 0; k < hands_.size(); ++k) {
+        if (!to_frame(poses[k], hands_[k])) return refuse(kStepBadInput);
+    }
+    const NoDenormals no_denormals;
+    const System<S> system{model_,    elements_, masses_, fields_, contact_.constraints(),
+                           unknowns_, dt_s,      1 + model_.damping_per_s * dt_s};
 
-    // 1. Predict where inertia carries everything, and linearise there.
-    predict(hand, dt);
-    // 2. One pass over the tetrahedra: rotations, forces, right-hand side.
-    linearise(dt);
+    // 1. Predict where inertia carries everything.
+    predict(hands_.data(), dt_s);
+    // 2. One pass over the tetrahedra there: rotations, forces, right-hand side.
+    linearise(system);
     // 3. Conjugate gradients, again for as long as the set of touched nodes changes.
-    const std::uint32_t status = solve_with_contact(dt);
+    const std::uint32_t status = solve_with_contact(system);
     if (!finite()) {
         contact_.abandon_step();
         return refuse(status | kStepNotFinite);
     }
     // 4. The reaction stands in the rows of the held nodes; take over the new state.
-    return accept(hand, dt, status);
+    accept(hands_.data(), dt_s, (status & kStepNotConverged) != 0);
+    find_results(dt_s);
+    return result(status);
 }
 
-void Stepper::predict(const Frame& hand, Real dt) noexcept {
-    for (std::uint32_t i = 0; i < model_.free_count; ++i)
-        predicted_[i] = positions_[i] + dt * velocities_[i];
-    std::copy(positions_.begin() + model_.free_count, positions_.end(),
-              predicted_.begin() + model_.free_count);
-    tool_ = hand;
-    coupling_ = {};
-    if (!coupled()) return;
+template <class S>
+void TypedStepper<S>::predict(const Frame* hands, Real dt) noexcept {
+    fields_.add_scaled(run_of(model_.free_count), displacements_.data(), static_cast<S>(dt),
+                       velocities_.data(), predicted_.data());
+    for (std::size_t k = 0; k < tools_.size(); ++k) {
+        unknowns_[k] = {};
+        tools_[k].frame = hands[k];
+        if (coupled()) couple(tools_[k], unknowns_[k], hands[k], dt);
+        frames_[k] = tools_[k].frame;
+        predict_bonded(k, dt);
+    }
+    contact_.begin_step(frames_, NodeReader(model_.rest_m, predicted_), dt);
+}
+
+template <class S>
+void TypedStepper<S>::couple(Tool& tool, ToolUnknown& unknown, const Frame& hand, Real dt) const noexcept {
     const Real stiffness = config_.coupling_stiffness_n_per_m;
     const Real damping = config_.coupling_damping_n_s_per_m;
-    tool_.position = tool_position_ + dt * tool_velocity_;
-    const Vec hand_velocity = (hand.position - hand_position_) / dt;
-    coupling_.moves = true;
-    coupling_.mass_kg = config_.tool_mass_kg;
-    coupling_.rate_n_per_m = stiffness + damping / dt;
-    coupling_.force_n =
-        stiffness * (tool_.position - hand.position) + damping * (tool_velocity_ - hand_velocity);
+    tool.frame.position = tool.position + dt * tool.velocity;
+    const Vec hand_velocity = (hand.position - tool.hand) / dt;
+    unknown.moves = true;
+    unknown.mass_kg = config_.tool_mass_kg;
+    unknown.rate_n_per_m = stiffness + damping / dt;
+    unknown.force_n =
+        stiffness * (tool.frame.position - hand.position) + damping * (tool.velocity - hand_velocity);
 }
 
-void Stepper::linearise(Real dt) noexcept {
-    pass_.linearise(model_, predicted_, load_);
-    const Real dt2 = dt * dt;
-    const bool heavy = !model_.gravity_m_per_s2.isZero(0);
-    for (std::uint32_t i = 0; i < model_.free_count; ++i) {
-        if (heavy) load_[i] += model_.mass_kg[i] * model_.gravity_m_per_s2;
-        if (model_.damping_per_s > 0) load_[i] -= (model_.damping_per_s * model_.mass_kg[i]) * velocities_[i];
-        load_[i] *= dt2;
+/// Bonded nodes go where their tool takes them: a better point to linearise at than along their velocity.
+template <class S>
+void TypedStepper<S>::predict_bonded(std::size_t k, Real dt) noexcept {
+    Tool& tool = tools_[k];
+    const std::uint32_t begin = model_.bonded[k].begin;
+    for (std::size_t i = 0; i < tool.anchors.size(); ++i) {
+        const std::size_t node = begin + i;
+        tool.next_m[i] = tool.frame.to_scene(tool.anchors[i]) - model_.rest_m[node];
+        predicted_.set(node, tool.next_m[i]);
+    }
+    (void)dt;
+}
+
+/// The right-hand side dt^2 (elastic force + gravity - damping) at the prediction, in kg m. Bonded nodes also
+/// carry what accelerates them: their rows are the tool's reaction.
+template <class S>
+void TypedStepper<S>::linearise(const System<S>& system) noexcept {
+    const Real dt = system.dt_s, dt2 = dt * dt;
+    elements_.linearise(static_cast<S>(dt2), predicted_, load_);
+    const Vec& gravity = model_.gravity_m_per_s2;
+    if (!gravity.isZero(0)) {
+        for (std::uint32_t i = 0; i < model_.moving_count; ++i)
+            load_.add(i, (dt2 * model_.mass_kg[i]) * gravity);
+    }
+    if (model_.damping_per_s > 0) {
+        for (std::uint32_t i = 0; i < model_.free_count; ++i)
+            load_.add(i, (-dt2 * model_.damping_per_s * model_.mass_kg[i]) * velocities_.get(i));
+    }
+    for (std::size_t k = 0; k < tools_.size(); ++k) {
+        const Tool& tool = tools_[k];
+        for (std::size_t i = 0; i < tool.anchors.size(); ++i) {
+            const std::size_t node = model_.bonded[k].begin + i;
+            const Vec along = dt * tool.velocities[i];
+            const Vec moved = tool.next_m[i] - tool.displacements_m[i];
+            const Vec damped = (model_.damping_per_s * dt) * moved;
+            load_.add(node, -model_.mass_kg[node] * (moved - along + damped));
+        }
     }
 }
 
-std::uint32_t Stepper::solve_with_contact(Real dt) noexcept {
-    const System system{model_, pass_, contact_.constraints(), coupling_, dt, 1 + model_.damping_per_s * dt};
-    const SolverLimits limits{config_.max_solver_iterations, config_.force_tolerance,
-                              std::min<Real>(kVelocityTolerance_m_per_s, config_.force_tolerance)};
-    std::fill(solution_.displacement.nodes.begin(), solution_.displacement.nodes.end(), Vec::Zero());
-    solution_.displacement.tool.setZero();
+template <class S>
+std::uint32_t TypedStepper<S>::solve_with_contact(const System<S>& system) noexcept {
+    const SolverLimits limits{
+        config_.max_solver_iterations, config_.force_tolerance,
+        std::min<Real>(kVelocityTolerance_m_per_s, config_.force_tolerance), trusts_preconditioner_};
+    solution_.displacement.nodes.fill_zero();
+    solution_.from_zero = true;
+    std::fill(solution_.displacement.tools.begin(), solution_.displacement.tools.end(), Vec::Zero());
     iterations_ = 0;
-
-    contact_.begin_step(tool_, predicted_);
-    preconditioner_.refresh(system);
+    preconditioner_.begin_step(system);
     for (int pass = 0; pass < config_.max_contact_passes; ++pass) {
         preconditioner_.hold(system);
         solver_.solve(system, preconditioner_, load_, limits, solution_);
         iterations_ += static_cast<std::uint32_t>(solution_.iterations);
-        if (!solution_.converged) return kStepNotConverged;
-        const Real touched = static_cast<Real>(std::max<std::size_t>(1, contact_.constraints().size()));
-        const Real pull_tolerance = limits.force_tolerance * solution_.force_n.norm() / touched;
-        if (!contact_.revise(tool_, predicted_, solution_, pull_tolerance)) return kStepOk;
+        std::uint32_t status = kStepOk;
+        if (settled(limits, status)) return status;
     }
     return kStepContactCap;
 }
 
-bool Stepper::finite() const noexcept {
-    // A sum is finite only if every term is. Divided by the smallest step, it covers the velocities too.
-    Vec sum = solution_.force_n + solution_.displacement.tool + tool_.position;
-    for (std::uint32_t i = 0; i < model_.free_count; ++i)
-        sum += predicted_[i] + solution_.displacement.nodes[i];
-    return (sum / Real(kSmallestStep_s)).allFinite();
+/// Whether the step ends with this solve, and how.
+template <class S>
+bool TypedStepper<S>::settled(const SolverLimits& limits, std::uint32_t& status) noexcept {
+    if (!solution_.converged) status = kStepNotConverged;
+    if (!unilateral_) return true;
+    const NodeReader predicted(model_.rest_m, predicted_);
+    const NodeReader solved(model_.rest_m, predicted_, solution_.displacement.nodes);
+    Real force = 0;
+    for (const Vec& f : solution_.force_n)
+        force = std::max(force, f.norm());
+    const Real touched = static_cast<Real>(std::max<std::size_t>(1, contact_.constraints().size()));
+    const Attempt attempt{predicted,
+                          solved,
+                          solution_.displacement.tools,
+                          solution_.row_n,
+                          travel_m(),
+                          limits.force_tolerance * force / touched,
+                          kConePerForceTolerance * limits.force_tolerance};
+    if (!solution_.converged) {
+        contact_.measure(attempt);
+        return true;
+    }
+    const Contact::Revision revision = contact_.revise(attempt);
+    if (revision == Contact::Revision::given_up) status = kStepContactCap;
+    return revision != Contact::Revision::changed;
 }
 
-StepResult Stepper::accept(const Frame& hand, Real dt, std::uint32_t status) noexcept {
-    const bool failed = (status & kStepNotConverged) != 0;
+/// The farthest that a free node has come since the step before.
+template <class S>
+Real TypedStepper<S>::travel_m() const noexcept {
+    Real squared = 0;
     for (std::uint32_t i = 0; i < model_.free_count; ++i) {
-        const Vec next = predicted_[i] + solution_.displacement.nodes[i];
-        velocities_[i] = (next - positions_[i]) / dt;
-        // An unsolved velocity would enter the next prediction and grow.
-        if (failed) velocities_[i].setZero();
-        positions_[i] = next;
+        const Vec moved = predicted_.get(i) + solution_.displacement.nodes.get(i) - displacements_.get(i);
+        squared = std::max(squared, moved.squaredNorm());
     }
-    tool_.position += solution_.displacement.tool;
-    tool_velocity_ = (tool_.position - tool_position_) / dt;
-    tool_position_ = tool_.position;
-    hand_position_ = hand.position;
-    contact_.end_step(tool_, positions_);
+    return std::sqrt(squared);
+}
 
+template <class S>
+bool TypedStepper<S>::finite() const noexcept {
+    // A sum of squares is finite only if every term is. Divided by the smallest step, it covers the velocities.
+    const std::size_t free = run_of(model_.free_count);
+    const NodeField<S>& d = solution_.displacement.nodes;
+    Real sum = static_cast<Real>(fields_.dot(free, predicted_.data(), predicted_.data())) +
+               static_cast<Real>(fields_.dot(free, d.data(), d.data()));
+    for (std::size_t k = 0; k < tools_.size(); ++k) {
+        sum += solution_.force_n[k].squaredNorm() + solution_.displacement.tools[k].squaredNorm() +
+               tools_[k].frame.position.squaredNorm();
+    }
+    return std::isfinite(sum / (kSmallestStep_s * kSmallestStep_s));
+}
+
+template <class S>
+void TypedStepper<S>::accept(const Frame* hands, Real dt, bool failed) noexcept {
+    const Real travel = unilateral_ ? travel_m() : 0;
+    const std::size_t free = run_of(model_.free_count);
+    const NodeField<S>& d = solution_.displacement.nodes;
+    fields_.add_scaled(free, velocities_.data(), static_cast<S>(1 / dt), d.data(), velocities_.data());
+    fields_.add_scaled(free, predicted_.data(), S(1), d.data(), displacements_.data());
+    // An unsolved velocity would enter the next prediction and grow.
+    if (failed) velocities_.fill_zero();
+    for (std::size_t k = 0; k < tools_.size(); ++k) {
+        Tool& tool = tools_[k];
+        const Vec further = solution_.displacement.tools[k];
+        tool.frame.position += further;
+        tool.velocity = (tool.frame.position - tool.position) / dt;
+        tool.position = tool.frame.position;
+        tool.hand = hands[k].position;
+        frames_[k] = tool.frame;
+        for (std::size_t i = 0; i < tool.anchors.size(); ++i) {
+            const Vec next = tool.next_m[i] + further;
+            tool.velocities[i] = (next - tool.displacements_m[i]) / dt;
+            tool.displacements_m[i] = next;
+            displacements_.set(model_.bonded[k].begin + i, next);
+        }
+    }
+    contact_.end_step(frames_, NodeReader(model_.rest_m, displacements_), travel);
+}
+
+template <class S>
+void TypedStepper<S>::find_results(Real dt) noexcept {
+    for (std::size_t k = 0; k < tools_.size(); ++k) {
+        const Tool& tool = tools_[k];
+        ToolResult& result = results_[k];
+        result.force_n = to_array(solution_.force_n[k]);
+        result.tool_position_m = to_array(tool.position);
+        result.touched_nodes =
+            contact_.load(k).touched + static_cast<std::uint32_t>(tool.anchors.size());
+        if (!config_.with_torque) continue;
+        Vec torque = contact_.load(k).torque_n_m;
+        for (std::size_t i = 0; i < tool.anchors.size(); ++i) {
+            const Vec arm = tool.frame.rotation * tool.anchors[i];
+            torque += arm.cross(solver_.residual().get(model_.bonded[k].begin + i)) / (dt * dt);
+        }
+        result.torque_nm = to_array(torque);
+    }
+}
+
+template <class S>
+StepResult TypedStepper<S>::result(std::uint32_t status) const noexcept {
     StepResult result;
-    result.force_n = to_array(solution_.force_n);
+    static_cast<ToolResult&>(result) = results_[0];
     result.status = status;
     result.solver_iterations = iterations_;
-    result.touched_nodes = static_cast<std::uint32_t>(contact_.constraints().size());
-    result.tool_position_m = to_array(tool_position_);
     return result;
 }
 
-StepResult Stepper::refuse(std::uint32_t status) const noexcept {
-    StepResult result;
-    result.status = status;
-    result.tool_position_m = to_array(tool_position_);
-    return result;
+template <class S>
+StepResult TypedStepper<S>::refuse(std::uint32_t status) noexcept {
+    for (std::size_t k = 0; k < tools_.size(); ++k) {
+        results_[k] = {};
+        results_[k].tool_position_m = to_array(tools_[k].position);
+    }
+    iterations_ = 0;
+    return result(status);
+}
+
+template <class S>
+void TypedStepper<S>::positions_m(double* out) const noexcept {
+    for (std::size_t i = 0; i < model_.from_asset.size(); ++i) {
+        const std::uint32_t node = model_.from_asset[i];
+        const Vec x = model_.rest_m[node] + displacements_.get(node);
+        std::copy_n(x.data(), 3, out + 3 * i);
+    }
+}
+
+template <class S>
+void TypedStepper<S>::velocities_m_per_s(double* out) const noexcept {
+    for (std::size_t i = 0; i < model_.from_asset.size(); ++i) {
+        const Vec v = velocities_.get(model_.from_asset[i]);
+        std::copy_n(v.data(), 3, out + 3 * i);
+    }
+    for (std::size_t i = 0; i < model_.from_asset.size(); ++i) {
+        for (std::size_t k = 0; k < tools_.size(); ++k) {
+            const Model::Range bonded = model_.bonded[k];
+            const std::uint32_t node = model_.from_asset[i];
+            if (node >= bonded.begin && node < bonded.end)
+                std::copy_n(tools_[k].velocities[node - bonded.begin].data(), 3, out + 3 * i);
+        }
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_stepper(const Asset& asset, const SimulationConfig& config,
+                                      const Numerics& numerics, SimdTarget target) {
+    if (numerics.arithmetic == Precision::float32)
+        return std::make_unique<TypedStepper<float>>(asset, config, numerics, target);
+    return std::make_unique<TypedStepper<double>>(asset, config, numerics, target);
+}
+
+std::unique_ptr<Stepper> make_stepper(const Asset& asset, const SimulationConfig& config) {
+    Numerics numerics = choose_numerics(asset);
+    if (config.arithmetic == Arithmetic::float32) numerics.arithmetic = Precision::float32;
+    if (config.arithmetic == Arithmetic::float64) numerics.arithmetic = Precision::float64;
+    return make_stepper(asset, config, numerics, best_simd_target());
 }
 
 }  // namespace knead::core

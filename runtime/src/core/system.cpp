@@ -3,29 +3,65 @@
 
 namespace knead::core {
 
-void System::apply(const Field& u, Field& out) const noexcept {
-    pass.apply_stiffness(model, u, out);
-    const Real dt2 = dt_s * dt_s;
-    for (std::uint32_t i = 0; i < model.free_count; ++i) {
-        out[i] = inertia * model.mass_kg[i] * u[i] + dt2 * out[i];
-    }
-    for (std::size_t i = model.free_count; i < out.size(); ++i)
-        out[i].setZero();
-}
-
-void System::project(Unknowns& rows) const noexcept {
-    for (const Constraint& c : constraints) {
-        const Vec held = c.held * rows.nodes[c.node];
-        rows.nodes[c.node] -= held;
-        if (tool.moves) rows.tool += held;
+template <class S>
+Masses<S>::Masses(const Model& model) : kg(run_of(model.rest_m.size() + 1)), per_kg(kg.size()) {
+    for (std::size_t i = 0; i < model.free_count; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            kg[4 * i + k] = static_cast<S>(model.mass_kg[i]);
+            per_kg[4 * i + k] = static_cast<S>(1 / model.mass_kg[i]);
+        }
     }
 }
 
-void System::expand(Unknowns& u) const noexcept {
+template <class S>
+void System<S>::apply(Unknowns<S>& u, NodeField<S>& out) const noexcept {
+    const auto carry = [&](bool along) {
+        for (std::size_t k = 0; k < tools.size(); ++k) {
+            if (!tools[k].moves) continue;
+            for (std::uint32_t i = model.bonded[k].begin; i < model.bonded[k].end; ++i)
+                u.nodes.set(i, along ? u.tools[k] : Vec(Vec::Zero()));
+        }
+    };
+    carry(true);
+    fields.multiply(out.size(), masses.kg.data(), static_cast<S>(inertia), u.nodes.data(), out.data());
+    elements.add_stiffness(static_cast<S>(dt_s * dt_s), u.nodes, out);
+    carry(false);
+}
+
+template <class S>
+void System<S>::project(Unknowns<S>& rows) const noexcept {
+    for (std::size_t k = 0; k < tools.size(); ++k) {
+        if (!tools[k].moves) continue;
+        for (std::uint32_t i = model.bonded[k].begin; i < model.bonded[k].end; ++i)
+            rows.tools[k] += rows.nodes.get(i);
+    }
     for (const Constraint& c : constraints) {
-        Vec& node = u.nodes[c.node];
-        node += c.held * (u.tool - node);
+        const Vec row = rows.nodes.get(c.node);
+        const Vec held = c.held * row;
+        rows.nodes.set(c.node, row - held);
+        if (tools[c.tool].moves) rows.tools[c.tool] += held;
     }
 }
+
+template <class S>
+void System<S>::expand(Unknowns<S>& u) const noexcept {
+    for (const Constraint& c : constraints) {
+        const Vec node = u.nodes.get(c.node);
+        u.nodes.set(c.node, node + c.held * (u.tools[c.tool] - node));
+    }
+}
+
+template <class S>
+Real System<S>::tool_diagonal_kg(std::size_t tool) const noexcept {
+    Real diagonal = tools[tool].mass_kg + dt_s * dt_s * tools[tool].rate_n_per_m;
+    for (std::uint32_t i = model.bonded[tool].begin; i < model.bonded[tool].end; ++i)
+        diagonal += inertia * model.mass_kg[i];
+    return diagonal;
+}
+
+template struct Masses<float>;
+template struct Masses<double>;
+template struct System<float>;
+template struct System<double>;
 
 }  // namespace knead::core

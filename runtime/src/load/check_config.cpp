@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "load/check_config.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "core/step.h"
+
 namespace knead {
 namespace {
+
+using core::kLargestStep_s;
+using core::kSmallestStep_s;
 
 Error bad(const std::string& what) {
     return Error{ErrorCode::invalid_argument, what, "SimulationConfig"};
@@ -19,12 +25,30 @@ bool finite_and_not_negative(double value) {
     return std::isfinite(value) && value >= 0;
 }
 
+Status check_tools(const std::vector<std::size_t>& tools, const Asset& asset) {
+    if (tools.empty()) return bad("tools is empty: a simulation has at least one tool");
+    for (std::size_t k = 0; k < tools.size(); ++k) {
+        if (tools[k] >= asset.tools.size()) {
+            return bad("tools has " + std::to_string(tools[k]) + ", but the asset has " +
+                       std::to_string(asset.tools.size()) + " tools");
+        }
+        if (std::find(tools.begin(), tools.begin() + static_cast<std::ptrdiff_t>(k), tools[k]) !=
+            tools.begin() + static_cast<std::ptrdiff_t>(k)) {
+            return bad("tools has " + std::to_string(tools[k]) + " twice");
+        }
+    }
+    return Unit{};
+}
+
 }  // namespace
 
 Status check_config(const SimulationConfig& config, const Asset& asset) {
-    if (config.tool >= asset.tools.size()) {
-        return bad("tool is " + std::to_string(config.tool) + ", but the asset has " +
-                   std::to_string(asset.tools.size()) + " tools");
+    if (Status status = check_tools(config.tools, asset); !status) return status;
+    if (!(config.expected_dt_s >= kSmallestStep_s && config.expected_dt_s <= kLargestStep_s)) {
+        return out_of_range("expected_dt_s", config.expected_dt_s, "0.25e-3 to 20e-3");
+    }
+    if (config.arithmetic > Arithmetic::float64) {
+        return out_of_range("arithmetic", static_cast<double>(config.arithmetic), "automatic, float32 or float64");
     }
     if (!(config.force_tolerance > 0 && config.force_tolerance <= 0.1)) {
         return out_of_range("force_tolerance", config.force_tolerance, "above 0 and at most 0.1");

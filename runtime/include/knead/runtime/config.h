@@ -2,17 +2,31 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace knead {
 
+/// What the numbers of a step are.
+enum class Arithmetic : std::uint8_t {
+    automatic = 0,  ///< as knead/formats/numerics.h chooses for the asset
+    float32 = 1,
+    float64 = 2
+};
+
 /// Choices of the application that do not belong to the asset.
 struct SimulationConfig {
-    /// Which of the asset's tools the poses of step() move. The asset's other tools are not in this
-    /// simulation.
-    std::size_t tool = 0;
-    double force_tolerance = 1e-4;    ///< relative bound aimed at for the force error of one step, (0, 0.1]
+    /// Which of the asset's tools the poses of step() move, by index, each once; at least one. The asset's other
+    /// tools are not in this simulation.
+    std::vector<std::size_t> tools{0};
+    /// The step that the application will ask for most, seconds: what the preconditioner is made for when
+    /// loading. Other steps are as exact; they take more iterations until it has been made anew, step by step.
+    double expected_dt_s = 1e-3;
+    Arithmetic arithmetic = Arithmetic::automatic;
+    double force_tolerance = 1e-3;    ///< relative bound of the force error of one step, (0, 0.1]
     int max_solver_iterations = 500;  ///< of the conjugate gradients, per solve, > 0
     int max_contact_passes = 8;       ///< solves, with a changed touched set each, tried in one step, > 0
+    bool with_torque = false;         ///< also find the torque on each tool
 
     /// Spring and damper between the pose that step() is given (the hand) and the tool in the scene, solved
     /// together with the object. Zero stiffness: no coupling, the tool is at the given pose.

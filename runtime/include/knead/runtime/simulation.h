@@ -14,7 +14,7 @@
 
 namespace knead {
 
-/// One soft object with one tool: implicit Euler, corotational linear tetrahedra (paper section 3.1, [MG04]).
+/// One soft object with its tools: implicit Euler, corotational linear tetrahedra (paper section 3.1, [MG04]).
 ///
 /// Threads: one thread at a time; different objects are independent. step() and reset() never allocate,
 /// lock, throw or do I/O. Same asset, configuration, inputs and machine type: the same bits.
@@ -31,19 +31,29 @@ class KNEAD_RUNTIME_API Simulation {
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
 
-    /// Advances by dt_s with the tool (the hand, if coupled) at `pose` at the end of the step.
+    /// Advances by dt_s with the tool (the hand, if coupled) at `pose` at the end of the step. For one tool.
     /// @param dt_s 0.25e-3 to 20e-3 seconds; may differ from step to step
     StepResult step(const Pose& pose, double dt_s) noexcept;
+    /// The same for all tools of the config. @param poses [tool_count()]
+    StepResult step(const Pose* poses, double dt_s) noexcept;
+    /// What the last step yielded for one tool.
+    [[nodiscard]] const ToolResult& tool(std::size_t index) const noexcept;
 
-    /// Back to the rest state, at rest, tool at its rest pose.
+    /// Back to the rest state, at rest, tools at their rest poses.
     void reset() noexcept;
 
+    [[nodiscard]] std::size_t tool_count() const noexcept;
     [[nodiscard]] std::size_t node_count() const noexcept;
     [[nodiscard]] std::size_t tetrahedron_count() const noexcept;
-    /// Current positions, metres: node_count() x 3, asset node order, valid until the next step().
+    /// Current positions, metres: node_count() x 3, asset node order, valid until the next call. Computed when
+    /// asked for, not by step().
     [[nodiscard]] const double* positions_m() const noexcept;
-    /// The tool's rest pose from the asset: start here.
-    [[nodiscard]] Pose tool_rest_pose() const noexcept;
+    /// @param out [node_count()][3], asset node order
+    void velocities_m_per_s(double* out) const noexcept;
+    /// A tool's rest pose from the asset: start here.
+    [[nodiscard]] Pose tool_rest_pose(std::size_t index = 0) const noexcept;
+    /// Of what conjugate gradients are preconditioned with.
+    [[nodiscard]] std::size_t preconditioner_bytes() const noexcept;
 
   private:
     struct Impl;

@@ -16,15 +16,20 @@ enum StepStatus : std::uint32_t {
     kStepContactCap = 1u << 3,    ///< the set of touched nodes had not settled at its cap
 };
 
-/// What one step yields.
-struct StepResult {
+/// What one step yields for one tool.
+struct ToolResult {
     /// On the hand: what the object (or, with a coupling, the coupling) exerts. Newtons, scene frame.
     /// Without a coupling it includes the inertia of the nodes that the tool holds, as a hand would feel it.
     Vec3 force_n{};
+    Vec3 torque_nm{};  ///< of the object, about the tool's origin, scene frame; zero unless asked for
+    std::uint32_t touched_nodes = 0;  ///< held by the tool at the end of the step
+    Vec3 tool_position_m{};           ///< where the tool is; the given position unless coupled
+};
+
+/// What one step yields, with the result of its first tool.
+struct StepResult : ToolResult {
     std::uint32_t status = kStepOk;       ///< StepStatus bits
     std::uint32_t solver_iterations = 0;  ///< of the conjugate gradients, all contact passes together
-    std::uint32_t touched_nodes = 0;      ///< held by the tool at the end of the step
-    Vec3 tool_position_m{};               ///< where the tool is; the given position unless coupled
 };
 
 }  // namespace knead

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #define KNEAD_SIMD avx512
 #define KNEAD_SIMD_BYTES 64
+#include "core/simd/element_kernels.inl"
 #include "core/simd/factor_kernels.inl"
+#include "core/simd/field_kernels.inl"
 #include "core/simd/kernels.h"
 
 namespace knead::core {
 
 extern const Kernels kAvx512Kernels;
-const Kernels kAvx512Kernels = {avx512::factor_kernels()};
+const Kernels kAvx512Kernels = {avx512::factor_kernels(), avx512::element_kernels<float>(),
+                                avx512::element_kernels<double>(), avx512::field_kernels<float>(),
+                                avx512::field_kernels<double>()};
 
 }  // namespace knead::core

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "core/simd/element_kernels.h"
 #include "core/simd/factor_kernels.h"
+#include "core/simd/field_kernels.h"
 
 namespace knead::core {
 
@@ -15,6 +17,25 @@ enum class SimdTarget : std::uint8_t {
 /// All functions of the core that are compiled once per instruction set.
 struct Kernels {
     FactorKernels factor;
+    ElementKernels<float> element_float;
+    ElementKernels<double> element_double;
+    FieldKernels<float> field_float;
+    FieldKernels<double> field_double;
+
+    template <class S>
+    [[nodiscard]] const ElementKernels<S>& element() const noexcept {
+        if constexpr (sizeof(S) == sizeof(float))
+            return element_float;
+        else
+            return element_double;
+    }
+    template <class S>
+    [[nodiscard]] const FieldKernels<S>& field() const noexcept {
+        if constexpr (sizeof(S) == sizeof(float))
+            return field_float;
+        else
+            return field_double;
+    }
 };
 
 /// The fastest that this processor and this build have.

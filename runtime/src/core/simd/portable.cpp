@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #define KNEAD_SIMD portable
 #define KNEAD_SIMD_BYTES 16
+#include "core/simd/element_kernels.inl"
 #include "core/simd/factor_kernels.inl"
+#include "core/simd/field_kernels.inl"
 #include "core/simd/kernels.h"
 
 namespace knead::core {
 
 extern const Kernels kPortableKernels;
-const Kernels kPortableKernels = {portable::factor_kernels()};
+const Kernels kPortableKernels = {portable::factor_kernels(), portable::element_kernels<float>(),
+                                  portable::element_kernels<double>(), portable::field_kernels<float>(),
+                                  portable::field_kernels<double>()};
 
 }  // namespace knead::core

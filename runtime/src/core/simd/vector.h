@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Included by the *_kernels.inl files only: compiled once per instruction set, in a namespace of its own.
+// Included by the *_kernels.inl files only, which are compiled once per instruction set. To keep the copies
+// apart, everything stands in a namespace of that set.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
-namespace knead::core {
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
+
+namespace knead::core::KNEAD_SIMD {
 
 /// W numbers that are computed with at once (vector extension of GCC and Clang: operators, comparisons and
 /// `mask ? a : b` work lane by lane). Wider than the machine's registers is allowed, only slower.
@@ -16,4 +22,150 @@ struct VectorOf {
 template <class S, int W>
 using Vector = typename VectorOf<S, W>::type;
 
-}  // namespace knead::core
+/// Lanes of a whole register, but never fewer than a node's four numbers.
+template <class S>
+inline constexpr int kLanes = KNEAD_SIMD_BYTES / sizeof(S) < 4 ? 4 : KNEAD_SIMD_BYTES / sizeof(S);
+
+template <class V, class S>
+inline V load(const S* from) {
+    return *reinterpret_cast<const V*>(from);
+}
+
+template <class V, class S>
+inline void store(S* to, V value) {
+    *reinterpret_cast<V*>(to) = value;
+}
+
+template <class V, class S>
+inline V broadcast(S value) {
+    return value - V{};
+}
+
+template <int W, class S>
+inline S sum(Vector<S, W> v) {
+    S lanes[W];
+    store(lanes, v);
+    for (int half = W / 2; half > 0; half /= 2) {
+        for (int k = 0; k < half; ++k)
+            lanes[k] += lanes[k + half];
+    }
+    return lanes[0];
+}
+
+/// In every group of four lanes: the numbers A, B, C, D of the same group, 0..3 from `a` and 4..7 from `b`.
+template <int A, int B, int C, int D, int W, class V, int... Lane>
+inline V shuffle_groups(V a, V b, std::integer_sequence<int, Lane...>) {
+    constexpr int from[4] = {A, B, C, D};
+    return __builtin_shufflevector(a, b,
+                                   (Lane / 4 * 4 + from[Lane % 4] % 4 + (from[Lane % 4] >= 4 ? W : 0))...);
+}
+template <int A, int B, int C, int D, int W, class V>
+inline V shuffle_groups(V a, V b) {
+    return shuffle_groups<A, B, C, D, W>(a, b, std::make_integer_sequence<int, W>{});
+}
+
+template <int First, class V, int... Lane>
+inline auto group(V v, std::integer_sequence<int, Lane...>) {
+    return __builtin_shufflevector(v, v, (First + Lane)...);
+}
+
+template <class S>
+inline const Vector<S, 4>& node(const S* from, std::int32_t index) {
+    return *reinterpret_cast<const Vector<S, 4>*>(from + index);
+}
+
+/// The four numbers at from[nodes[0]], from[nodes[4]], ... side by side. Said with intrinsics where there are
+/// some, because they load and insert in one operation.
+template <class S, int W>
+inline Vector<S, W> load_groups(const S* from, const std::int32_t* nodes) {
+    static_assert(W == 4 || W == 8 || W == 16);
+    if constexpr (W == 4) {
+        return node(from, nodes[0]);
+#ifdef __AVX512F__
+    } else if constexpr (W == 16 && sizeof(S) == 4) {
+        __m512 v = _mm512_castps128_ps512(node(from, nodes[0]));
+        v = _mm512_insertf32x4(v, node(from, nodes[4]), 1);
+        v = _mm512_insertf32x4(v, node(from, nodes[8]), 2);
+        return _mm512_insertf32x4(v, node(from, nodes[12]), 3);
+    } else if constexpr (W == 8 && sizeof(S) == 8) {
+        return _mm512_insertf64x4(_mm512_castpd256_pd512(node(from, nodes[0])), node(from, nodes[4]), 1);
+#endif
+#ifdef __AVX2__
+    } else if constexpr (W == 8 && sizeof(S) == 4) {
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(node(from, nodes[0])), node(from, nodes[4]), 1);
+#endif
+    } else {
+        static_assert(W == 4, "wider registers need a way to fill them");
+    }
+}
+
+/// Whether a comparison holds in all lanes.
+template <class M>
+inline bool all(M mask) {
+#ifdef __AVX512DQ__
+    if constexpr (sizeof(M) == 64 && sizeof(mask[0]) == 4)
+        return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask)) == 0xffff;
+    else if constexpr (sizeof(M) == 64)
+        return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask)) == 0xff;
+    else
+#endif
+#ifdef __AVX2__
+        if constexpr (sizeof(M) == 32)
+        return _mm256_movemask_epi8(reinterpret_cast<__m256i>(mask)) == -1;
+    else
+#endif
+    {
+        auto result = mask[0];
+        for (std::size_t k = 1; k < sizeof(M) / sizeof(mask[0]); ++k)
+            result &= mask[k];
+        return result != 0;
+    }
+}
+
+/// Adds every group of four lanes to the numbers at to[nodes[0]], to[nodes[4]], ...
+template <class S, int W>
+inline void add_groups(Vector<S, W> v, const std::int32_t* nodes, S* to) {
+    [&]<int... Group>(std::integer_sequence<int, Group...>) {
+        ((*reinterpret_cast<Vector<S, 4>*>(to + nodes[4 * Group]) +=
+          group<4 * Group>(v, std::make_integer_sequence<int, 4>{})),
+         ...);
+    }
+    (std::make_integer_sequence<int, W / 4>{});
+}
+
+template <class S, int W>
+struct Vectors3 {
+    Vector<S, W> x, y, z;
+};
+
+/// Three numbers of each of W nodes. @param nodes [W] four times the index of each lane's node
+template <class S, int W>
+inline Vectors3<S, W> gather(const S* field, const std::int32_t* nodes) {
+    using V = Vector<S, W>;
+    const V n0 = load_groups<S, W>(field, nodes);
+    const V n1 = load_groups<S, W>(field, nodes + 1);
+    const V n2 = load_groups<S, W>(field, nodes + 2);
+    const V n3 = load_groups<S, W>(field, nodes + 3);
+    const V xy01 = shuffle_groups<0, 4, 1, 5, W>(n0, n1);
+    const V xy23 = shuffle_groups<0, 4, 1, 5, W>(n2, n3);
+    const V z01 = shuffle_groups<2, 6, 3, 7, W>(n0, n1);
+    const V z23 = shuffle_groups<2, 6, 3, 7, W>(n2, n3);
+    return {shuffle_groups<0, 1, 4, 5, W>(xy01, xy23), shuffle_groups<2, 3, 6, 7, W>(xy01, xy23),
+            shuffle_groups<0, 1, 4, 5, W>(z01, z23)};
+}
+
+/// Adds three numbers to each of W nodes, one lane after the other: a node may stand in several lanes.
+template <class S, int W>
+inline void scatter_add(const Vectors3<S, W>& v, const std::int32_t* nodes, S* field) {
+    using V = Vector<S, W>;
+    const V xy01 = shuffle_groups<0, 4, 1, 5, W>(v.x, v.y);
+    const V xy23 = shuffle_groups<2, 6, 3, 7, W>(v.x, v.y);
+    const V z01 = shuffle_groups<0, 4, 1, 5, W>(v.z, V{});
+    const V z23 = shuffle_groups<2, 6, 3, 7, W>(v.z, V{});
+    add_groups<S, W>(shuffle_groups<0, 1, 4, 5, W>(xy01, z01), nodes, field);
+    add_groups<S, W>(shuffle_groups<2, 3, 6, 7, W>(xy01, z01), nodes + 1, field);
+    add_groups<S, W>(shuffle_groups<0, 1, 4, 5, W>(xy23, z23), nodes + 2, field);
+    add_groups<S, W>(shuffle_groups<2, 3, 6, 7, W>(xy23, z23), nodes + 3, field);
+}
+
+}  // namespace knead::core::KNEAD_SIMD
