@@ -7,6 +7,7 @@
 
 #include "h5.h"
 #include "knead/formats/version.h"
+#include "names.h"
 #include "schema.h"
 
 namespace knead {
@@ -164,12 +165,11 @@ FileHeader read_root(hid_t root, const std::string& file, const ReadLimits& limi
     const Value& features = root_attribute(attributes, "required_features", ScalarType::text, 1, file);
     for (std::size_t i = 0; i < features.count(); ++i)
         header.required_features.push_back(features.text(i));
-    // This version knows no feature: the first one of any file is unknown.
-    if (!header.required_features.empty())
-        fail(ErrorCode::feature_unsupported,
-             "needs the feature \"" + header.required_features.front() +
-                 "\", which this version of Knead lacks",
-             file + "#/@required_features");
+    for (const std::string& feature : header.required_features)
+        if (std::find(kKnownFeatures.begin(), kKnownFeatures.end(), feature) == kKnownFeatures.end())
+            fail(ErrorCode::feature_unsupported,
+                 "needs the feature \"" + feature + "\", which this version of Knead lacks",
+                 file + "#/@required_features");
     header.kind = kind_of(root_attribute(attributes, "kind", ScalarType::text, 0, file).text(), file);
     header.content_hash = root_attribute(attributes, "content_hash", ScalarType::text, 0, file).text();
     if (!is_hash(header.content_hash))

@@ -32,6 +32,7 @@ constexpr ScalarType scalar_type_of() {
     if constexpr (std::is_same_v<T, std::uint32_t>) return ScalarType::u32;
     if constexpr (std::is_same_v<T, std::int64_t>) return ScalarType::i64;
     if constexpr (std::is_same_v<T, std::uint64_t>) return ScalarType::u64;
+    if constexpr (std::is_same_v<T, float>) return ScalarType::f32;
     if constexpr (std::is_same_v<T, double>) return ScalarType::f64;
 }
 

@@ -15,6 +15,8 @@ const std::string kTools = kAsset + "/tools";
 const std::string kGravity = kAsset + "/gravity";
 const std::string kDamping = kAsset + "/damping";
 const std::string kSurface = kAsset + "/surface";
+const std::string kEmbedding = kAsset + "/embedding";
+const std::string kStill = kEmbedding + "/still_vertices_m";
 
 void check_material_palette_shape(Schema& schema, std::uint64_t tetrahedra) {
     schema.group(kAsset + "/material");
@@ -26,6 +28,18 @@ void check_material_palette_shape(Schema& schema, std::uint64_t tetrahedra) {
     schema.index_dataset(kPaletteIndex, {tetrahedra});
 }
 
+/// An enumerator of a tool; attributes are there before the data.
+template <class Enum, std::size_t N>
+Enum enumerator(Schema& schema, const std::string& tool, const char* attribute,
+                const std::array<const char*, N>& names) {
+    const std::string text = schema.text_of(tool, attribute);
+    const auto found = std::find(names.begin(), names.end(), text);
+    if (found == names.end())
+        schema.refuse(ErrorCode::invalid_data, "\"" + text + "\" is not a " + attribute,
+                      tool + "@" + attribute);
+    return static_cast<Enum>(found - names.begin());
+}
+
 void check_tool_set_shape(Schema& schema, const std::string& tool) {
     schema.group(tool);
     for (const char* name : {"name", "shape", "contact"})
@@ -33,21 +47,15 @@ void check_tool_set_shape(Schema& schema, const std::string& tool) {
     schema.dataset(tool + "/rest_position_m", ScalarType::f64, {3}, "m");
     schema.dataset(tool + "/rest_orientation_wxyz", ScalarType::f64, {4}, "1");
     schema.dataset(tool + "/nodes", ScalarType::u32, {kAnyExtent}, "1");
-    // Which of the two belongs to the shape is known only from the data: at least one of them must be there.
-    const bool has_radius = schema.has(tool + "/radius_m");
-    if (has_radius) schema.dataset(tool + "/radius_m", ScalarType::f64, {1}, "m");
-    if (!has_radius || schema.has(tool + "/half_extents_m"))
+    const auto shape = enumerator<ToolShape>(schema, tool, "shape", kToolShapes);
+    const auto contact = enumerator<ToolContact>(schema, tool, "contact", kToolContacts);
+    if (shape == ToolShape::plate)
         schema.dataset(tool + "/half_extents_m", ScalarType::f64, {2}, "m");
-}
-
-template <class Enum, std::size_t N>
-Enum enumerator(Schema& schema, const std::string& tool, const char* attribute,
-                const std::array<const char*, N>& names) {
-    const std::string text = schema.text_of(tool, attribute);
-    const auto found = std::find(names.begin(), names.end(), text);
-    if (found == names.end())
-        fail(ErrorCode::invalid_data, "\"" + text + "\" is not a " + attribute, tool + "@" + attribute);
-    return static_cast<Enum>(found - names.begin());
+    else
+        schema.dataset(tool + "/radius_m", ScalarType::f64, {1}, "m");
+    if (shape == ToolShape::capsule) schema.dataset(tool + "/half_length_m", ScalarType::f64, {1}, "m");
+    if (contact == ToolContact::coulomb)
+        schema.dataset(tool + "/friction_coefficient", ScalarType::f64, {1}, "1");
 }
 
 ToolSet take_tool_set(Schema& schema, const std::string& tool) {
@@ -55,13 +63,13 @@ ToolSet take_tool_set(Schema& schema, const std::string& tool) {
     set.name = schema.text_of(tool, "name");
     set.shape = enumerator<ToolShape>(schema, tool, "shape", kToolShapes);
     set.contact = enumerator<ToolContact>(schema, tool, "contact", kToolContacts);
-    const bool sphere = set.shape == ToolShape::sphere;
-    const std::string size = tool + (sphere ? "/radius_m" : "/half_extents_m");
-    if (!schema.has(size)) fail(ErrorCode::missing, "is not in the file", size);
-    if (sphere)
-        set.radius_m = schema.take_one<double>(size);
+    if (set.shape == ToolShape::plate)
+        set.half_extents_m = schema.take_one<std::array<double, 2>>(tool + "/half_extents_m");
     else
-        set.half_extents_m = schema.take_one<std::array<double, 2>>(size);
+        set.radius_m = schema.take_one<double>(tool + "/radius_m");
+    if (set.shape == ToolShape::capsule) set.half_length_m = schema.take_one<double>(tool + "/half_length_m");
+    if (set.contact == ToolContact::coulomb)
+        set.friction_coefficient = schema.take_one<double>(tool + "/friction_coefficient");
     set.rest_position_m = schema.take_one<Point>(tool + "/rest_position_m");
     set.rest_orientation_wxyz = schema.take_one<std::array<double, 4>>(tool + "/rest_orientation_wxyz");
     set.nodes = schema.take<std::uint32_t>(tool + "/nodes");
@@ -75,6 +83,31 @@ void take_palette(Schema& schema, Asset& asset) {
     for (std::size_t i = 0; i < moduli.size(); ++i)
         asset.palette.push_back({moduli[i], ratios[i], densities[i]});
     asset.palette_index = schema.take_index(kPaletteIndex);
+}
+
+void check_embedding_shape(Schema& schema) {
+    schema.group(kEmbedding);
+    const ReadLimits& limits = schema.limits();
+    const std::uint64_t vertices =
+        schema.dataset(kEmbedding + "/tetrahedron", ScalarType::u32, {kAnyExtent}, "1");
+    schema.dataset(kEmbedding + "/weights", ScalarType::f32, {vertices, 4}, "1");
+    schema.limit(vertices, limits.max_nodes, "vertices", kEmbedding + "/tetrahedron");
+    if (schema.has(kStill)) {
+        const std::uint64_t still = schema.dataset(kStill, ScalarType::f64, {kAnyExtent, 3}, "m");
+        schema.limit(still, limits.max_nodes - vertices, "still vertices beside the moving ones", kStill);
+    }
+    const std::uint64_t triangles =
+        schema.dataset(kEmbedding + "/triangles", ScalarType::u32, {kAnyExtent, 3}, "1");
+    schema.limit(triangles, limits.max_tetrahedra, "triangles", kEmbedding + "/triangles");
+}
+
+SurfaceEmbedding take_embedding(Schema& schema) {
+    SurfaceEmbedding embedding;
+    embedding.tetrahedron = schema.take<std::uint32_t>(kEmbedding + "/tetrahedron");
+    embedding.weights = schema.take<std::array<float, 4>>(kEmbedding + "/weights");
+    if (schema.has(kStill)) embedding.still_vertices_m = schema.take<Point>(kStill);
+    embedding.triangles = schema.take<std::array<std::uint32_t, 3>>(kEmbedding + "/triangles");
+    return embedding;
 }
 
 }  // namespace
@@ -107,6 +140,7 @@ void check_asset_shape(Schema& schema) {
             schema.dataset(kSurface + "/triangles", ScalarType::u32, {kAnyExtent, 3}, "1");
         schema.limit(triangles, schema.limits().max_tetrahedra, "triangles", kSurface + "/triangles");
     }
+    if (schema.has(kEmbedding)) check_embedding_shape(schema);
 }
 
 Asset take_asset(Schema& schema) {
@@ -126,17 +160,23 @@ Asset take_asset(Schema& schema) {
         asset.damping_per_s = schema.take_one<double>(kDamping + "/mass_proportional_per_s");
     if (schema.has(kSurface))
         asset.surface.triangles = schema.take<std::array<std::uint32_t, 3>>(kSurface + "/triangles");
+    if (schema.has(kEmbedding)) asset.embedding = take_embedding(schema);
     return asset;
 }
 
-Result<Asset> read_asset(const std::filesystem::path& file, const ReadLimits& limits) {
-    return read_kind(file, limits, {FileKind::asset}, [&](Schema& schema, LoadedFile& loaded) {
+template <>
+Result<Stored<Asset>> read_stored<Asset>(const std::filesystem::path& file, const ReadLimits& limits) {
+    return read_kind<Asset>(file, limits, {FileKind::asset}, [&](Schema& schema, LoadedFile& loaded) {
         Asset asset = take_asset(schema);
         Schema provenance(loaded.provenance, file.string(), limits);
         asset.requests = take_requests(provenance);
         value_or_fail(validate(asset));
         return asset;
     });
+}
+
+Result<Asset> read_asset(const std::filesystem::path& file, const ReadLimits& limits) {
+    return value_of(read_stored<Asset>(file, limits));
 }
 
 }  // namespace knead

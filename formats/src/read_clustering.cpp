@@ -41,14 +41,20 @@ Clustering take_clustering(Schema& schema) {
     return c;
 }
 
-Result<ClusteredObject> read_clustering(const std::filesystem::path& file, const ReadLimits& limits) {
-    return read_kind(file, limits, {FileKind::clustering}, [](Schema& schema) {
+template <>
+Result<Stored<ClusteredObject>> read_stored<ClusteredObject>(const std::filesystem::path& file,
+                                                             const ReadLimits& limits) {
+    return read_kind<ClusteredObject>(file, limits, {FileKind::clustering}, [](Schema& schema) {
         ClusteredObject object{take_tet_mesh(schema), take_material(schema), take_clustering(schema)};
         value_or_fail(validate(object.mesh));
         value_or_fail(validate(object.material, object.mesh.tetrahedra.size()));
         value_or_fail(validate(object.clustering, object.mesh.tetrahedra.size()));
         return object;
     });
+}
+
+Result<ClusteredObject> read_clustering(const std::filesystem::path& file, const ReadLimits& limits) {
+    return value_of(read_stored<ClusteredObject>(file, limits));
 }
 
 }  // namespace knead

@@ -26,13 +26,20 @@ Material take_material(Schema& schema) {
     return material;
 }
 
+template <>
+Result<Stored<MaterialObject>> read_stored<MaterialObject>(const std::filesystem::path& file,
+                                                           const ReadLimits& limits) {
+    return read_kind<MaterialObject>(
+        file, limits, {FileKind::material, FileKind::clustering}, [](Schema& schema) {
+            MaterialObject object{take_tet_mesh(schema), take_material(schema)};
+            value_or_fail(validate(object.mesh));
+            value_or_fail(validate(object.material, object.mesh.tetrahedra.size()));
+            return object;
+        });
+}
+
 Result<MaterialObject> read_material(const std::filesystem::path& file, const ReadLimits& limits) {
-    return read_kind(file, limits, {FileKind::material, FileKind::clustering}, [](Schema& schema) {
-        MaterialObject object{take_tet_mesh(schema), take_material(schema)};
-        value_or_fail(validate(object.mesh));
-        value_or_fail(validate(object.material, object.mesh.tetrahedra.size()));
-        return object;
-    });
+    return value_of(read_stored<MaterialObject>(file, limits));
 }
 
 }  // namespace knead

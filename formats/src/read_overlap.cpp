@@ -31,12 +31,18 @@ OverlapMatrix take_overlap(Schema& schema) {
     return matrix;
 }
 
-Result<OverlapMatrix> read_overlap(const std::filesystem::path& file, const ReadLimits& limits) {
-    return read_kind(file, limits, {FileKind::overlap}, [](Schema& schema) {
+template <>
+Result<Stored<OverlapMatrix>> read_stored<OverlapMatrix>(const std::filesystem::path& file,
+                                                         const ReadLimits& limits) {
+    return read_kind<OverlapMatrix>(file, limits, {FileKind::overlap}, [](Schema& schema) {
         OverlapMatrix matrix = take_overlap(schema);
         value_or_fail(validate(matrix));
         return matrix;
     });
+}
+
+Result<OverlapMatrix> read_overlap(const std::filesystem::path& file, const ReadLimits& limits) {
+    return value_of(read_stored<OverlapMatrix>(file, limits));
 }
 
 }  // namespace knead

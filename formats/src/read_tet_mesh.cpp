@@ -60,13 +60,18 @@ TetMesh take_tet_mesh(Schema& schema) {
     return mesh;
 }
 
+template <>
+Result<Stored<TetMesh>> read_stored<TetMesh>(const std::filesystem::path& file, const ReadLimits& limits) {
+    return read_kind<TetMesh>(file, limits, {FileKind::tet_mesh, FileKind::material, FileKind::clustering},
+                              [](Schema& schema) {
+                                  TetMesh mesh = take_tet_mesh(schema);
+                                  value_or_fail(validate(mesh));
+                                  return mesh;
+                              });
+}
+
 Result<TetMesh> read_tet_mesh(const std::filesystem::path& file, const ReadLimits& limits) {
-    return read_kind(file, limits, {FileKind::tet_mesh, FileKind::material, FileKind::clustering},
-                     [](Schema& schema) {
-                         TetMesh mesh = take_tet_mesh(schema);
-                         value_or_fail(validate(mesh));
-                         return mesh;
-                     });
+    return value_of(read_stored<TetMesh>(file, limits));
 }
 
 }  // namespace knead

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "aggregate/aggregate.h"
+#include "common/input.h"
 #include "common/run_tool.h"
 #include "common/stopwatch.h"
 #include "knead/formats/write/write.h"
@@ -77,13 +78,11 @@ ExitCode run(ToolContext& context, const Arguments& arguments) {
     const Stopwatch total;
     require_writable_folder(arguments.output);
     context.set_output(arguments.output);
-    context.add_input(arguments.clustered);
     Provenance provenance =
         context.provenance({"--order", arguments.order, "--interest", arguments.interest,
                             "--direction-weight", fmt::format("{}", arguments.direction_weight)});
-    provenance.inputs.emplace_back("clustered",
-                                   value_or_throw(read_header(arguments.clustered)).content_hash);
-    const ClusteredObject object = value_or_throw(read_clustering(arguments.clustered));
+    const auto [object, hash] = read_input<ClusteredObject>(context, arguments.clustered);
+    provenance.inputs = {{"clustered", hash}};
 
     const Stopwatch aggregate_watch;
     const AggregateResult result = aggregate(

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "asset/json.h"
+#include "knead/formats/numerics.h"
 
 namespace knead::tools {
 namespace {
@@ -16,12 +17,36 @@ std::string number(double value) {
 }
 
 const char* name_of(ToolShape shape) {
-    return shape == ToolShape::sphere ? "sphere" : "plate";
+    static constexpr std::array<const char*, 3> kNames{"plate", "sphere", "capsule"};
+    return kNames[static_cast<std::size_t>(shape)];
 }
 
 const char* name_of(ToolContact contact) {
-    static constexpr std::array<const char*, 3> kNames{"bonded", "sticking", "frictionless"};
+    static constexpr std::array<const char*, 4> kNames{"bonded", "sticking", "frictionless", "coulomb"};
     return kNames[static_cast<std::size_t>(contact)];
+}
+
+/// "capsule of radius 0.005 m and half length 0.02 m, coulomb with friction 0.3"
+std::string tool_text(const ToolSet& tool) {
+    std::string text = name_of(tool.shape);
+    const auto& half = tool.half_extents_m;
+    if (tool.shape != ToolShape::plate) text += " of radius " + number(tool.radius_m) + " m";
+    if (tool.shape == ToolShape::capsule) text += " and half length " + number(tool.half_length_m) + " m";
+    if (half[0] > 0) text += " of half extents " + number(half[0]) + " m, " + number(half[1]) + " m";
+    text += std::string(", ") + name_of(tool.contact);
+    if (tool.contact == ToolContact::coulomb) text += " with friction " + number(tool.friction_coefficient);
+    return text;
+}
+
+void write_tool(JsonWriter& json, const ToolSet& tool) {
+    json.open_object().text("name", tool.name).text("shape", name_of(tool.shape));
+    const auto& half = tool.half_extents_m;
+    if (tool.shape != ToolShape::plate) json.number("radius_m", tool.radius_m);
+    if (tool.shape == ToolShape::capsule) json.number("half_length_m", tool.half_length_m);
+    if (half[0] > 0) json.open_array("half_extents_m").number("", half[0]).number("", half[1]).close_array();
+    json.text("contact", name_of(tool.contact));
+    if (tool.contact == ToolContact::coulomb) json.number("friction_coefficient", tool.friction_coefficient);
+    json.number("nodes", std::uint64_t{tool.nodes.size()}).close_object();
 }
 
 std::string padded_left(const std::string& text, std::size_t width) {
@@ -45,6 +70,8 @@ std::string header_text(const FileInfo& file) {
     std::string text = "kind            " + std::string(to_string(header.kind)) + ", format " +
                        std::to_string(header.format_version[0]) + "." +
                        std::to_string(header.format_version[1]) + "\n";
+    for (const std::string& feature : header.required_features)
+        text += "needs           " + feature + "\n";
     text += "content hash    " + header.content_hash + "\n";
     text += "made by         " + made.tool + " " + made.tool_version + ", seed " + std::to_string(made.seed) +
             "\n";
@@ -67,9 +94,15 @@ std::string asset_text(const Asset& asset) {
                 " Pa, nu " + number(entry.poissons_ratio) + ", density " + number(entry.density_kg_per_m3) +
                 " kg/m^3, " + std::to_string(users) + " tetrahedra\n";
     }
+    text += "numerics        " + to_text(choose_numerics(asset)) + "\n";
     for (const ToolSet& tool : asset.tools)
-        text += "tool            " + tool.name + ": " + name_of(tool.shape) + ", " + name_of(tool.contact) +
-                ", " + std::to_string(tool.nodes.size()) + " nodes\n";
+        text += "tool            " + tool.name + ": " + tool_text(tool) + ", " +
+                std::to_string(tool.nodes.size()) + " nodes\n";
+    const SurfaceEmbedding& embedding = asset.embedding;
+    if (!embedding.triangles.empty())
+        text += "embedding       " + std::to_string(embedding.vertex_count()) + " vertices, " +
+                std::to_string(embedding.still_vertices_m.size()) + " of them still, " +
+                std::to_string(embedding.triangles.size()) + " triangles\n";
     return text;
 }
 
@@ -104,6 +137,19 @@ void write_provenance(JsonWriter& json, const Provenance& made) {
     json.close_array().close_object();
 }
 
+void write_numerics(JsonWriter& json, const Numerics& numerics) {
+    json.open_object("numerics")
+        .text("arithmetic", to_string(numerics.arithmetic))
+        .text("arithmetic_reason", to_string(numerics.arithmetic_reason))
+        .text("preconditioner", to_string(numerics.preconditioner))
+        .text("preconditioner_reason", to_string(numerics.preconditioner_reason))
+        .text("factor_storage", to_string(numerics.factor_storage))
+        .text("storage_reason", to_string(numerics.storage_reason))
+        .number("contrast", numerics.contrast)
+        .number("max_poissons_ratio", numerics.max_poissons_ratio)
+        .close_object();
+}
+
 void write_asset(JsonWriter& json, const Asset& asset) {
     json.open_object("asset").text("name", asset.name).text("level", asset.level);
     json.number("tetrahedra", std::uint64_t{asset.tetrahedra.size()});
@@ -115,15 +161,19 @@ void write_asset(JsonWriter& json, const Asset& asset) {
             .number("poissons_ratio", entry.poissons_ratio)
             .number("density_kg_per_m3", entry.density_kg_per_m3)
             .close_object();
-    json.close_array().open_array("tools");
+    json.close_array();
+    write_numerics(json, choose_numerics(asset));
+    json.open_array("tools");
     for (const ToolSet& tool : asset.tools)
-        json.open_object()
-            .text("name", tool.name)
-            .text("shape", name_of(tool.shape))
-            .text("contact", name_of(tool.contact))
-            .number("nodes", std::uint64_t{tool.nodes.size()})
+        write_tool(json, tool);
+    json.close_array();
+    if (const SurfaceEmbedding& embedding = asset.embedding; !embedding.triangles.empty())
+        json.open_object("embedding")
+            .number("vertices", std::uint64_t{embedding.vertex_count()})
+            .number("still_vertices", std::uint64_t{embedding.still_vertices_m.size()})
+            .number("triangles", std::uint64_t{embedding.triangles.size()})
             .close_object();
-    json.close_array().close_object();
+    json.close_object();
 }
 
 void write_node(JsonWriter& json, const Description& description, const NodeInfo& node) {
@@ -167,6 +217,10 @@ std::string info_json(const Description& description) {
     json.open_object().text("kind", to_string(header.kind));
     json.text("format_version",
               std::to_string(header.format_version[0]) + "." + std::to_string(header.format_version[1]));
+    json.open_array("required_features");
+    for (const std::string& feature : header.required_features)
+        json.text("", feature);
+    json.close_array();
     json.text("content_hash", header.content_hash).number("bytes", description.file.file_bytes);
     write_provenance(json, header.provenance);
     if (description.asset) write_asset(json, *description.asset);

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
 
+#include "bake/embedding.h"
 #include "bake/node_order.h"
 #include "bake/selection.h"
 #include "bake/surface.h"
@@ -75,8 +77,9 @@ std::vector<std::uint32_t> place_nodes(const TetMesh& mesh, const std::vector<st
 
 /// Palette entries in the order of increasing (E, nu, density). Values are compared to the bit: tetrahedra
 /// of one bin hold identical values.
-void place_tetrahedra(const MaterialObject& object, std::vector<std::uint32_t> movable,
-                      const std::vector<std::uint32_t>& asset_node, Asset& asset) {
+/// @return the mesh's tetrahedra in the order of the asset's
+std::vector<std::uint32_t> place_tetrahedra(const MaterialObject& object, std::vector<std::uint32_t> movable,
+                                            const std::vector<std::uint32_t>& asset_node, Asset& asset) {
     const auto lowest_node = [&](std::uint32_t i) {
         const Tetrahedron& t = object.mesh.tetrahedra[i];
         return std::min({asset_node[t[0]], asset_node[t[1]], asset_node[t[2]], asset_node[t[3]]});
@@ -104,6 +107,15 @@ void place_tetrahedra(const MaterialObject& object, std::vector<std::uint32_t> m
         asset.tetrahedra.push_back(t);
         asset.palette_index.push_back(palette.at(values_of(i)));
     }
+    return movable;
+}
+
+/// How far the tool's lowest point lies below its origin.
+double reach_below_m(const SceneTool& tool) {
+    if (tool.shape == ToolShape::plate) return 0;
+    const auto& [w, x, y, z] = tool.orientation_wxyz;
+    const double axis_z = 1 - 2 * (x * x + y * y);  // of the tool's z axis, in the scene
+    return tool.radius_m + tool.half_length_m * std::abs(axis_z);
 }
 
 /// Where the tool is when it just touches the highest of its nodes: over the middle of them.
@@ -117,8 +129,7 @@ Point touching_position(const SceneTool& tool, const std::vector<Point>& nodes_m
             high[axis] = std::max(high[axis], nodes_m[node][axis]);
         }
     }
-    const double above = tool.shape == ToolShape::sphere ? tool.radius_m : 0.0;
-    return {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), high[2] + above};
+    return {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), high[2] + reach_below_m(tool)};
 }
 
 ToolSet place_tool(const Scene& scene, const SceneTool& tool, const TetMesh& mesh,
@@ -129,6 +140,8 @@ ToolSet place_tool(const Scene& scene, const SceneTool& tool, const TetMesh& mes
     set.shape = tool.shape;
     set.contact = tool.contact;
     set.radius_m = tool.radius_m;
+    set.half_length_m = tool.half_length_m;
+    set.friction_coefficient = tool.friction_coefficient;
     set.half_extents_m = tool.half_extents_m;
     set.rest_orientation_wxyz = tool.orientation_wxyz;
     const std::vector<bool> selected = select_nodes(mesh, tool.touches);
@@ -150,6 +163,21 @@ std::vector<bool> surface_nodes(const TetMesh& mesh, const std::vector<Triangle>
     return on_surface;
 }
 
+SurfaceEmbedding place_skin(const Scene& scene, const TetMesh& mesh, const Skin& skin,
+                            const std::vector<std::uint32_t>& placed) {
+    CarrierMesh carrier{mesh.nodes_m, {}, placed.size()};
+    std::vector<bool> in_asset(mesh.tetrahedra.size(), false);
+    for (const std::uint32_t i : placed) {
+        in_asset[i] = true;
+        carrier.tetrahedra.push_back(mesh.tetrahedra[i]);
+    }
+    for (std::size_t i = 0; i < in_asset.size(); ++i)
+        if (!in_asset[i]) carrier.tetrahedra.push_back(mesh.tetrahedra[i]);
+    return embed(skin, carrier,
+                 {fmt::format("{}:{}: embedding", scene.file.string(), scene.embedding->line),
+                  scene.embedding->max_distance_m});
+}
+
 /// Which line of the scene asked for each group of the file (docs/format.md names the groups).
 void note_requests(const Scene& scene, const Level& level, Asset& asset) {
     asset.requests.push_back({"/knead/asset/mesh", "mesh", level.mesh ? level.line : scene.mesh_line});
@@ -164,11 +192,13 @@ void note_requests(const Scene& scene, const Level& level, Asset& asset) {
         asset.requests.push_back({"/knead/asset/damping", "simulation.damping_per_s", scene.damping_line});
     if (scene.needs_surface)
         asset.requests.push_back({"/knead/asset/surface", "app.surface", scene.surface_line});
+    if (scene.embedding)
+        asset.requests.push_back({"/knead/asset/embedding", "embedding", scene.embedding->line});
 }
 
 }  // namespace
 
-Asset bake(const Scene& scene, const Level& level, const MaterialObject& object) {
+Asset bake(const Scene& scene, const Level& level, const MaterialObject& object, const Skin& skin) {
     Asset asset;
     asset.name = scene.name;
     asset.level = level.name;
@@ -181,7 +211,7 @@ Asset bake(const Scene& scene, const Level& level, const MaterialObject& object)
         fail_input(fmt::format("{}:{}: every node of the mesh is held: nothing can move", scene.file.string(),
                                scene.held.front().line));
     const std::vector<std::uint32_t> asset_node = place_nodes(object.mesh, movable, held, asset);
-    place_tetrahedra(object, movable, asset_node, asset);
+    const std::vector<std::uint32_t> placed = place_tetrahedra(object, movable, asset_node, asset);
 
     // The surface is that of the whole object: a face between a movable and a held tetrahedron is inside it.
     const std::vector<Triangle> surface = boundary_triangles(object.mesh.tetrahedra);
@@ -193,6 +223,7 @@ Asset bake(const Scene& scene, const Level& level, const MaterialObject& object)
             if (asset_node[t[0]] != kNone && asset_node[t[1]] != kNone && asset_node[t[2]] != kNone)
                 asset.surface.triangles.push_back({asset_node[t[0]], asset_node[t[1]], asset_node[t[2]]});
     }
+    if (scene.embedding) asset.embedding = place_skin(scene, object.mesh, skin, placed);
     note_requests(scene, level, asset);
     if (const Status status = validate(asset); !status.ok()) fail_input(status.error().text());
     return asset;

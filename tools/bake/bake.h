@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "bake/skin.h"
 #include "knead/formats/asset.h"
 #include "knead/formats/material.h"
 #include "scene/scene.h"
@@ -13,9 +14,12 @@ namespace knead::tools {
 /// nested-dissection order, tetrahedra whose four nodes are all held left out, elasticities as a palette with
 /// an index per tetrahedron, the nodes that each tool may touch.
 ///
+/// @param skin the surface that scene.embedding names; unused when the scene has none
+///
 /// Throws ToolError(bad_input) when a selection of the scene finds no node, when nothing can move, or when
 /// the object breaks an invariant of Asset; messages name the line of the scene.
 /// The result depends on the arguments only.
-[[nodiscard]] Asset bake(const Scene& scene, const Level& level, const MaterialObject& object);
+[[nodiscard]] Asset bake(const Scene& scene, const Level& level, const MaterialObject& object,
+                         const Skin& skin = {});
 
 }  // namespace knead::tools

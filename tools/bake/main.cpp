@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/bake.h"
+#include "common/input.h"
 #include "common/run_tool.h"
 #include "common/stopwatch.h"
 #include "knead/formats/hash.h"
+#include "knead/formats/numerics.h"
 #include "knead/formats/write/write.h"
 
 namespace {
@@ -28,6 +30,19 @@ void declare(CLI::App& app, Options& options) {
     app.add_option("-o,--output", options.output, "asset to write; replaced only once complete")->required();
 }
 
+/// Empty when the scene asks for none.
+Input<Skin> read_scene_skin(ToolContext& context, const Scene& scene) {
+    if (!scene.embedding) return {};
+    const std::filesystem::path& file = scene.embedding->file;
+    const Input<std::string> bytes = read_input_bytes(context, file);
+    Skin skin = about(file, [&] {
+        return read_skin(bytes.value, file.extension().string(), scene.embedding->metres_per_unit);
+    });
+    for (const std::string& note : skin.notes)
+        context.tell(file.string() + ": " + note);
+    return {std::move(skin), bytes.content_hash};
+}
+
 std::string report(const Asset& asset, double seconds) {
     nlohmann::ordered_json json;
     json["schema"] = "knead-bake/1";
@@ -37,6 +52,19 @@ std::string report(const Asset& asset, double seconds) {
     json["palette"] = asset.palette.size();
     for (const ToolSet& tool : asset.tools)
         json["tools"][tool.name] = tool.nodes.size();
+    if (!asset.embedding.triangles.empty())
+        json["embedding"] = {{"vertices", asset.embedding.vertex_count()},
+                             {"still_vertices", asset.embedding.still_vertices_m.size()},
+                             {"triangles", asset.embedding.triangles.size()}};
+    const Numerics numerics = choose_numerics(asset);
+    json["numerics"] = {{"arithmetic", to_string(numerics.arithmetic)},
+                        {"arithmetic_reason", to_string(numerics.arithmetic_reason)},
+                        {"preconditioner", to_string(numerics.preconditioner)},
+                        {"preconditioner_reason", to_string(numerics.preconditioner_reason)},
+                        {"factor_storage", to_string(numerics.factor_storage)},
+                        {"storage_reason", to_string(numerics.storage_reason)},
+                        {"contrast", numerics.contrast},
+                        {"max_poissons_ratio", numerics.max_poissons_ratio}};
     json["seconds"] = seconds;
     return json.dump(2) + "\n";
 }
@@ -45,22 +73,22 @@ ExitCode run(ToolContext& context, const Options& options) {
     const Stopwatch total;
     require_writable_folder(options.output);
     context.add_input(options.scene);
-    context.add_input(options.object);
     context.set_output(options.output);
 
     const Scene scene = read_scene(options.scene);
     const Level& level = scene.level(options.level);
-    const FileHeader header = value_or_throw(read_header(options.object));
-    const MaterialObject object = value_or_throw(read_material(options.object));
-    const Asset asset = bake(scene, level, object);
+    const auto [object, object_hash] = read_input<MaterialObject>(context, options.object);
+    const Input<Skin> skin = read_scene_skin(context, scene);
+    const Asset asset = bake(scene, level, object, skin.value);
 
     Provenance provenance = context.provenance({"--level=" + options.level});
-    provenance.inputs = {{"scene", value_or_throw(sha256_of_file(options.scene))},
-                         {"object", header.content_hash}};
+    provenance.inputs = {{"scene", value_or_throw(sha256_of_file(options.scene))}, {"object", object_hash}};
+    if (scene.embedding) provenance.inputs.emplace_back("embedding", skin.content_hash);
     value_or_throw(write_asset(options.output, asset, provenance));
 
     context.detail(fmt::format("{} of {} tetrahedra, {} free nodes, {} elasticities", asset.tetrahedra.size(),
                                object.mesh.tetrahedra.size(), asset.free_node_count, asset.palette.size()));
+    context.detail(to_text(choose_numerics(asset)));
     context.write_report(report(asset, total.seconds()));
     return ExitCode::done;
 }

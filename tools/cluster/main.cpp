@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cluster/cluster.h"
+#include "common/input.h"
 #include "common/run_tool.h"
 #include "common/stopwatch.h"
 #include "knead/formats/write/write.h"
@@ -82,15 +83,14 @@ ExitCode run(ToolContext& context, Arguments& arguments) {
     const Stopwatch total;
     require_writable_folder(arguments.output);
     context.set_output(arguments.output);
-    context.add_input(arguments.material);
     ClusterOptions& options = arguments.options;
     options.binning = kBinnings.at(arguments.binning);
     options.seed = context.seed;
     Provenance provenance = context.provenance(
         {"--bins", fmt::format("{}", options.bins), "--clusters", fmt::format("{}", options.clusters),
          "--binning", arguments.binning, "--restarts", fmt::format("{}", options.restarts)});
-    provenance.inputs.emplace_back("material", value_or_throw(read_header(arguments.material)).content_hash);
-    MaterialObject object = value_or_throw(read_material(arguments.material));
+    auto [object, hash] = read_input<MaterialObject>(context, arguments.material);
+    provenance.inputs = {{"material", hash}};
 
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, context.threads);
     const Stopwatch cluster_watch;

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "coarsen/coarsen.h"
+#include "common/input.h"
 #include "common/run_tool.h"
 #include "common/stopwatch.h"
 #include "knead/formats/write/write.h"
@@ -40,13 +41,6 @@ void declare(CLI::App& app, Arguments& arguments) {
         ->capture_default_str()
         ->check(CLI::IsMember(kRules))
         ->type_name("RULE");
-}
-
-/// The header's hash of an input, noted in the provenance; call before reading the file.
-void note_input(ToolContext& context, const std::filesystem::path& file, const char* role,
-                Provenance& provenance) {
-    context.add_input(file);
-    provenance.inputs.emplace_back(role, value_or_throw(read_header(file)).content_hash);
 }
 
 nlohmann::ordered_json to_json(const std::vector<std::uint32_t>& ids) {
@@ -89,27 +83,22 @@ ExitCode run(ToolContext& context, const Arguments& arguments) {
     require_writable_folder(arguments.output);
     context.set_output(arguments.output);
     Provenance provenance = context.provenance({"--rule", arguments.rule});
-    note_input(context, arguments.fine, "fine", provenance);
-    const MaterialObject fine = value_or_throw(read_material(arguments.fine));
-    note_input(context, arguments.coarse, "coarse", provenance);
-    TetMesh coarse = value_or_throw(read_tet_mesh(arguments.coarse));
-    note_input(context, arguments.overlap, "overlap", provenance);
-    const OverlapMatrix overlap = value_or_throw(read_overlap(arguments.overlap));
+    const Input<MaterialObject> fine = read_input<MaterialObject>(context, arguments.fine);
+    Input<TetMesh> coarse = read_input<TetMesh>(context, arguments.coarse);
+    const Input<OverlapMatrix> overlap = read_input<OverlapMatrix>(context, arguments.overlap);
+    provenance.inputs = {
+        {"fine", fine.content_hash}, {"coarse", coarse.content_hash}, {"overlap", overlap.content_hash}};
 
     const Stopwatch coarsen_watch;
-    CoarsenResult result = [&] {
-        try {
-            return coarsen(fine, coarse, overlap, kRules.at(arguments.rule));
-        } catch (const ToolError& error) {
-            throw ToolError(error.code(), arguments.overlap.string() + ": " + error.what());
-        }
-    }();
+    CoarsenResult result = about(arguments.overlap, [&] {
+        return coarsen(fine.value, coarse.value, overlap.value, kRules.at(arguments.rule));
+    });
     const double coarsen_s = coarsen_watch.seconds();
     // The names of regions and arrays speak of the original's materials; the coarse values come from the fine
     // mesh.
-    coarse.regions = {};
-    coarse.cell_arrays.clear();
-    value_or_throw(write_material(arguments.output, {std::move(coarse), result.material}, provenance));
+    coarse.value.regions = {};
+    coarse.value.cell_arrays.clear();
+    value_or_throw(write_material(arguments.output, {std::move(coarse.value), result.material}, provenance));
     report(context, arguments, result, coarsen_s, total.seconds());
     return ExitCode::done;
 }

@@ -2,13 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "common/input.h"
 #include "common/run_tool.h"
 #include "common/stopwatch.h"
-#include "knead/formats/hash.h"
 #include "knead/formats/write/write.h"
 #include "material/csv.h"
 #include "material/expression.h"
@@ -22,23 +20,10 @@ using Inputs = decltype(Provenance::inputs);
 
 std::string read_text(ToolContext& context, const std::filesystem::path& file, const char* role,
                       Inputs& inputs) {
-    context.add_input(file);
-    std::ifstream stream(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (stream.fail() || text.empty()) fail_input(file.string() + ": cannot be read, or is empty");
-    inputs.emplace_back(role, sha256_of(text));
-    return text;
-}
-
-/// Runs something that concerns a file, and names the file in front of what it complains about.
-template <class Call>
-auto about(const std::filesystem::path& file, const Call& call) {
-    try {
-        return call();
-    } catch (const ToolError& error) {
-        if (error.code() != ExitCode::bad_input) throw;
-        throw ToolError(error.code(), file.string() + ": " + error.what());
-    }
+    Input<std::string> text = read_input_bytes(context, file);
+    if (text.value.empty()) fail_input(file.string() + ": is empty");
+    inputs.emplace_back(role, text.content_hash);
+    return std::move(text.value);
 }
 
 void read_tables(ToolContext& context, Arguments& arguments, Inputs& inputs) {
@@ -76,9 +61,9 @@ ExitCode run(ToolContext& context, Arguments& arguments) {
     const Stopwatch total;
     require_writable_folder(arguments.output);
     context.set_output(arguments.output);
-    context.add_input(arguments.mesh);
-    Inputs inputs{{"mesh", value_or_throw(read_header(arguments.mesh)).content_hash}};
-    MaterialObject object{value_or_throw(read_tet_mesh(arguments.mesh)), {}};
+    Input<TetMesh> mesh = read_input<TetMesh>(context, arguments.mesh);
+    Inputs inputs{{"mesh", mesh.content_hash}};
+    MaterialObject object{std::move(mesh.value), {}};
     read_tables(context, arguments, inputs);
     arguments.request.seed = context.seed;
     const auto& blamed = !arguments.csv.empty()            ? arguments.csv

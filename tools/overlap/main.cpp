@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/input.h"
 #include "common/run_tool.h"
 #include "common/stopwatch.h"
 #include "knead/formats/write/write.h"
@@ -33,13 +34,6 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "ignore shared volume below this share of the smaller element")
         ->capture_default_str()
         ->type_name("RATIO");
-}
-
-TetMesh read_mesh(ToolContext& context, const std::filesystem::path& file, const char* role,
-                  Provenance& provenance) {
-    context.add_input(file);
-    provenance.inputs.emplace_back(role, value_or_throw(read_header(file)).content_hash);
-    return value_or_throw(read_tet_mesh(file));
 }
 
 void warn_about(const ToolContext& context, const std::string& mesh, const ElementSample& sample,
@@ -90,8 +84,9 @@ ExitCode run(ToolContext& context, Arguments& arguments) {
     context.set_output(arguments.output);
     Provenance provenance =
         context.provenance({"--drop-below", fmt::format("{}", arguments.options.drop_below)});
-    const TetMesh fine = read_mesh(context, arguments.fine, "fine", provenance);
-    const TetMesh coarse = read_mesh(context, arguments.coarse, "coarse", provenance);
+    const auto [fine, fine_hash] = read_input<TetMesh>(context, arguments.fine);
+    const auto [coarse, coarse_hash] = read_input<TetMesh>(context, arguments.coarse);
+    provenance.inputs = {{"fine", fine_hash}, {"coarse", coarse_hash}};
 
     arguments.options.threads = context.threads;
     const Stopwatch compute;

@@ -63,11 +63,23 @@ Eigen::Matrix3d CorotationalPoint::stress_pa() const {
     return 2 * lame_.mu_pa * (deformation_gradient_ - rotation_) + lame_.lambda_pa * dilation_ * rotation_;
 }
 
+/// What turns 2 mu dF into mu (dF + R dF^T R): only the symmetric part of R^T dF strains.
+Matrix9d CorotationalPoint::symmetrised_strain_pa() const {
+    Matrix9d result = -lame_.mu_pa * Matrix9d::Identity();
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            for (int a = 0; a < 3; ++a)
+                for (int b = 0; b < 3; ++b)
+                    result(i + 3 * k, b + 3 * a) += lame_.mu_pa * rotation_(i, a) * rotation_(b, k);
+    return result;
+}
+
 Matrix9d CorotationalPoint::tangent_pa(Curvature curvature) const {
     const double stretch_pa = 2 * lame_.mu_pa;
     Matrix9d tangent = stretch_pa * Matrix9d::Identity();
     const Vector9d rotation = flattened(rotation_);
     tangent += lame_.lambda_pa * rotation * rotation.transpose();
+    if (curvature == Curvature::rotation_frozen) return tangent + symmetrised_strain_pa();
     for (int axis = 0; axis < 3; ++axis) {
         const int first = (axis + 1) % 3;
         const int second = (axis + 2) % 3;

@@ -18,8 +18,11 @@ struct LameParameters {
 
 /// Which second derivative of the energy is wanted.
 enum class Curvature {
-    exact,     ///< includes the turning of R; may be indefinite under compression
-    projected  ///< its negative eigenvalues replaced by zero: the nearest positive semidefinite matrix
+    exact,      ///< includes the turning of R; may be indefinite under compression
+    projected,  ///< its negative eigenvalues replaced by zero: the nearest positive semidefinite matrix
+    /// R held as it is: R K0 R^T with K0 of linear elasticity, the classical corotational stiffness that one
+    /// step of the runtime solves with. Positive semidefinite.
+    rotation_frozen
 };
 
 /// The corotational material at one deformation gradient F.
@@ -42,6 +45,8 @@ class CorotationalPoint {
     [[nodiscard]] Matrix9d tangent_pa(Curvature curvature) const;
 
   private:
+    [[nodiscard]] Matrix9d symmetrised_strain_pa() const;
+
     Eigen::Matrix3d deformation_gradient_;
     LameParameters lame_;
     Eigen::Matrix3d left_, right_;  // F = left_ diag(singular_) right_^T, both rotations

@@ -55,6 +55,8 @@ ElasticBody::ElasticBody(const TetMesh& mesh, const Material& material) {
         const double stiffness_pa = 2 * element.lame.mu_pa + 3 * std::abs(element.lame.lambda_pa);
         rounding_noise_n_ = std::max(rounding_noise_n_, stiffness_pa * element.volume_m3 * gradient *
                                                             std::max(1.0, gradient * extent_m));
+        largest_stiffness_n_per_m_ =
+            std::max(largest_stiffness_n_per_m_, stiffness_pa * element.volume_m3 * gradient * gradient);
         elements_.push_back(element);
     }
     rounding_noise_n_ *= kRoundedOperations * std::numeric_limits<double>::epsilon();

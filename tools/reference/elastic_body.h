@@ -45,6 +45,8 @@ class ElasticBody {
                                               Curvature curvature) const;
     /// Bound on what rounding in double precision alone leaves in a nodal force, newtons.
     [[nodiscard]] double rounding_noise_n() const { return rounding_noise_n_; }
+    /// Largest diagonal entry that one tetrahedron adds to the stiffness at rest.
+    [[nodiscard]] double largest_stiffness_n_per_m() const { return largest_stiffness_n_per_m_; }
 
   private:
     struct Element {
@@ -59,6 +61,7 @@ class ElasticBody {
     Eigen::VectorXd rest_, mass_;
     std::vector<Element> elements_;
     double rounding_noise_n_ = 0;
+    double largest_stiffness_n_per_m_ = 0;
 };
 
 }  // namespace knead::tools

@@ -106,7 +106,7 @@ FreeSystem& FreeSystem::operator=(FreeSystem&&) noexcept = default;
 FreeSystem::~FreeSystem() = default;
 
 bool FreeSystem::factorise(const Eigen::VectorXd& positions_m, Curvature curvature,
-                           const Eigen::VectorXd& diagonal_n_per_m) {
+                           const Eigen::VectorXd& diagonal_n_per_m, const std::vector<NodeBlock>& blocks) {
     if (impl_->free_count == 0) return true;
     double* const values = impl_->lower.valuePtr();
     std::fill(values, values + impl_->lower.nonZeros(), 0.0);
@@ -123,6 +123,14 @@ bool FreeSystem::factorise(const Eigen::VectorXd& positions_m, Curvature curvatu
             if (const int column = impl_->free_index[k]; column != kNotFree)
                 values[impl_->diagonal_position[static_cast<std::size_t>(column)]] +=
                     diagonal_n_per_m[static_cast<Eigen::Index>(k)];
+    for (const NodeBlock& added : blocks)
+        for (int j = 0; j < 3; ++j)
+            for (int i = j; i < 3; ++i) {
+                const auto first = static_cast<std::size_t>(first_unknown(added.node));
+                const int row = impl_->free_index[first + static_cast<std::size_t>(i)];
+                const int column = impl_->free_index[first + static_cast<std::size_t>(j)];
+                values[impl_->find(row, column)] += added.block_n_per_m(i, j);
+            }
     impl_->factor.factorize(impl_->lower);
     return impl_->factor.info() == Eigen::Success;
 }
@@ -138,6 +146,23 @@ Eigen::VectorXd FreeSystem::solve(const Eigen::VectorXd& rhs) const {
     for (std::size_t k = 0; k < impl_->free_index.size(); ++k)
         if (const int column = impl_->free_index[k]; column != kNotFree)
             result[static_cast<Eigen::Index>(k)] = solution[column];
+    return result;
+}
+
+Eigen::MatrixXd FreeSystem::unit_force_responses(const std::vector<std::uint32_t>& nodes) const {
+    const auto columns = 3 * static_cast<Eigen::Index>(nodes.size());
+    Eigen::MatrixXd result =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(impl_->free_index.size()), columns);
+    if (impl_->free_count == 0 || nodes.empty()) return result;
+    Eigen::MatrixXd compact = Eigen::MatrixXd::Zero(impl_->free_count, columns);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+        for (std::size_t i = 0; i < 3; ++i)
+            if (const int row = impl_->free_index[3 * std::size_t{nodes[k]} + i]; row != kNotFree)
+                compact(row, static_cast<Eigen::Index>(3 * k + i)) = 1;
+    compact = impl_->factor.solve(compact).eval();
+    for (std::size_t k = 0; k < impl_->free_index.size(); ++k)
+        if (const int row = impl_->free_index[k]; row != kNotFree)
+            result.row(static_cast<Eigen::Index>(k)) = compact.row(row);
     return result;
 }
 

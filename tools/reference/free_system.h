@@ -10,6 +10,12 @@
 
 namespace knead::tools {
 
+/// A symmetric 3 x 3 matrix to be added at a node whose three unknowns are free.
+struct NodeBlock {
+    std::uint32_t node = 0;
+    Eigen::Matrix3d block_n_per_m;
+};
+
 /// The linear system of the unknowns that are not prescribed: assembly and direct solution.
 ///
 /// Unknown 3 * n + i is axis i of node n. The sparsity pattern and the elimination order (CHOLMOD's symbolic
@@ -23,13 +29,16 @@ class FreeSystem {
     FreeSystem& operator=(FreeSystem&&) noexcept;
     ~FreeSystem();
 
-    /// Factorises the second derivative at `positions_m`, plus `diagonal_n_per_m` ([3 nodes], or empty).
+    /// Factorises the second derivative at `positions_m`, plus `diagonal_n_per_m` ([3 nodes], or empty) and
+    /// `blocks`.
     /// @return false when it is not positive definite
     bool factorise(const Eigen::VectorXd& positions_m, Curvature curvature,
-                   const Eigen::VectorXd& diagonal_n_per_m);
+                   const Eigen::VectorXd& diagonal_n_per_m, const std::vector<NodeBlock>& blocks = {});
     /// Solves with the last factor for the free part of `rhs`; zero at the prescribed unknowns.
     /// @param rhs [3 nodes]
     [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
+    /// Column 3 k + i: the displacements under a unit force along axis i of nodes[k].
+    [[nodiscard]] Eigen::MatrixXd unit_force_responses(const std::vector<std::uint32_t>& nodes) const;
 
     [[nodiscard]] const std::vector<bool>& is_prescribed() const;
     [[nodiscard]] std::size_t unknown_count() const;

@@ -8,11 +8,13 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "common/length.h"
 #include "scene/toml_table.h"
 
 namespace knead::tools {
 namespace {
 
+const std::vector<std::string> kLengthUnits{"m", "dm", "cm", "mm", "um", "in", "ft"};
 constexpr double kUnitQuaternionTolerance = 1e-6;  // a hand-typed quaternion has six digits or more
 
 /// Names become parts of file names.
@@ -105,8 +107,7 @@ MeshSource read_mesh_source(const Scene& scene, TomlTable table, const MeshSourc
         if (table.has(key)) *target = *table.flag(key);
     for (const char* key : {"file", "points"})
         if (table.has(key)) mesh.file = path_beside(scene, table.text(key));
-    if (table.has("length_unit"))
-        mesh.length_unit = *table.choice("length_unit", {"m", "dm", "cm", "mm", "um", "in", "ft"});
+    if (table.has("length_unit")) mesh.length_unit = *table.choice("length_unit", kLengthUnits);
     if (table.has("target_tetrahedra")) {
         const auto target = table.count("target_tetrahedra");
         if (*target < 1 || *target > 100'000'000)
@@ -241,12 +242,17 @@ Selection read_selection(TomlTable& table, const std::string& scene_key) {
 }
 
 void read_shape(TomlTable& table, SceneTool& tool) {
-    const auto shape = table.choice("shape", {"plate", "sphere"});
+    const auto shape = table.choice("shape", {"plate", "sphere", "capsule"});
     if (!shape) table.fail_missing("shape");
-    if (*shape == "sphere") {
-        tool.shape = ToolShape::sphere;
-        tool.radius_m = positive(table, "radius", table.length_m("radius"));
-        if (tool.radius_m == 0) table.fail_missing("radius", "is required for a sphere");
+    const auto required_length = [&](const char* key) {
+        const double length = positive(table, key, table.length_m(key));
+        if (length == 0) table.fail_missing(key, fmt::format("is required for a {}", *shape));
+        return length;
+    };
+    if (*shape != "plate") {
+        tool.shape = *shape == "sphere" ? ToolShape::sphere : ToolShape::capsule;
+        tool.radius_m = required_length("radius");
+        if (tool.shape == ToolShape::capsule) tool.half_length_m = required_length("half_length");
         return;
     }
     if (const auto extents = table.lengths_m("half_extents"); !extents.empty()) {
@@ -256,16 +262,32 @@ void read_shape(TomlTable& table, SceneTool& tool) {
     }
 }
 
+void read_contact(TomlTable& table, SceneTool& tool) {
+    const std::vector<std::string> contacts{"bonded", "sticking", "frictionless", "coulomb"};
+    const auto contact = table.choice("contact", contacts);
+    if (!contact) table.fail_missing("contact");
+    const auto place = std::find(contacts.begin(), contacts.end(), *contact);
+    tool.contact = static_cast<ToolContact>(place - contacts.begin());
+    if (tool.contact != ToolContact::coulomb) {
+        if (table.has("friction")) table.fail("friction", "belongs to contact = \"coulomb\" only");
+        return;
+    }
+    const auto friction = table.number("friction");
+    if (!friction) table.fail_missing("friction", "is required for contact = \"coulomb\"");
+    if (!(*friction > 0 && *friction <= kMaxFrictionCoefficient))
+        table.fail("friction",
+                   fmt::format("must be greater than 0 and at most {}; without friction a contact is "
+                               "\"frictionless\"",
+                               kMaxFrictionCoefficient));
+    tool.friction_coefficient = *friction;
+}
+
 SceneTool read_scene_tool(TomlTable table, std::size_t index) {
     SceneTool tool;
     tool.line = table.line();
     tool.name = required_name(table, "name");
     read_shape(table, tool);
-    const auto contact = table.choice("contact", {"bonded", "sticking", "frictionless"});
-    if (!contact) table.fail_missing("contact");
-    tool.contact = *contact == "bonded"     ? ToolContact::bonded
-                   : *contact == "sticking" ? ToolContact::sticking
-                                            : ToolContact::frictionless;
+    read_contact(table, tool);
     tool.position_m = table.point_m("position");
     if (const auto q = table.numbers("orientation_wxyz"); !q.empty()) {
         double norm = 0;
@@ -297,6 +319,19 @@ void read_simulation(Scene& scene, TomlTable table) {
         scene.damping_line = table.line_of("damping_per_s");
     }
     table.finish();
+}
+
+EmbeddingSource read_embedding(const Scene& scene, TomlTable table) {
+    EmbeddingSource embedding;
+    embedding.line = table.line();
+    embedding.file = path_beside(scene, table.text("file"));
+    if (embedding.file.empty()) table.fail_missing("file");
+    const auto unit = table.choice("length_unit", kLengthUnits);
+    if (!unit) table.fail_missing("length_unit", "is required: STL and PLY files have no unit");
+    embedding.metres_per_unit = metres_per_unit(*unit);
+    embedding.max_distance_m = positive(table, "max_distance", table.length_m("max_distance"));
+    table.finish();
+    return embedding;
 }
 
 template <class Item>
@@ -333,6 +368,7 @@ void read_body(Scene& scene, TomlTable& root) {
         scene.surface_line = app->line_of("surface");
         app->finish();
     }
+    if (auto embedding = root.table("embedding")) scene.embedding = read_embedding(scene, *embedding);
 }
 
 }  // namespace

@@ -86,11 +86,21 @@ struct SceneTool {
     std::string name;
     ToolShape shape = ToolShape::plate;
     ToolContact contact = ToolContact::bonded;
-    double radius_m = 0;
+    double radius_m = 0;              ///< sphere, capsule
+    double half_length_m = 0;         ///< capsule
+    double friction_coefficient = 0;  ///< coulomb
     std::array<double, 2> half_extents_m{};
     std::optional<Point> position_m;  ///< absent: touching the highest node that it may touch
     std::array<double, 4> orientation_wxyz{1, 0, 0, 0};
     Selection touches;
+    std::uint32_t line = 0;
+};
+
+/// A finer surface to be carried along for drawing.
+struct EmbeddingSource {
+    std::filesystem::path file;  ///< STL or PLY
+    double metres_per_unit = 1;
+    double max_distance_m = 0;  ///< 0: not given
     std::uint32_t line = 0;
 };
 
@@ -112,6 +122,7 @@ struct Scene {
     std::uint32_t damping_line = 0;
     bool needs_surface = false;
     std::uint32_t surface_line = 0;
+    std::optional<EmbeddingSource> embedding;
 
     [[nodiscard]] const Level& level(const std::string& level_name) const;  ///< throws bad_usage if unknown
 };

@@ -190,7 +190,7 @@ void write_root(Writer& writer, hid_t root, const FilePlan& plan) {
     writer.attribute(root, "format", text_value("knead"));
     writer.attribute(root, "format_version", copy_1d(kFormatVersion));
     writer.attribute(root, "kind", text_value(to_string(plan.kind)));
-    writer.attribute(root, "required_features", text_array({}));
+    writer.attribute(root, "required_features", text_array(plan.required_features));
     writer.attribute(root, "content_hash", text_value(content_hash(plan.kind, plan.payload)));
 }
 

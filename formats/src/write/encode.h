@@ -30,6 +30,7 @@ struct VtkPart {
 /// Everything that goes into one file.
 struct FilePlan {
     FileKind kind = FileKind::tet_mesh;
+    std::vector<std::string> required_features;
     Payload payload;
     Payload provenance;
     std::optional<VtkPart> vtk;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "../names.h"
 #include "encode.h"
 
@@ -46,13 +48,28 @@ void encode_tool(Payload& payload, const ToolSet& tool, const std::string& path)
     node.attributes["name"] = text_value(tool.name);
     node.attributes["shape"] = text_value(kToolShapes[static_cast<std::size_t>(tool.shape)]);
     node.attributes["contact"] = text_value(kToolContacts[static_cast<std::size_t>(tool.contact)]);
-    if (tool.shape == ToolShape::sphere)
-        payload.add_dataset(path + "/radius_m", copy_1d(std::array<double, 1>{tool.radius_m}), "m");
-    else
+    const auto add_number = [&](const char* dataset, double value, const char* units) {
+        payload.add_dataset(path + "/" + dataset, copy_1d(std::array<double, 1>{value}), units);
+    };
+    if (tool.shape == ToolShape::plate)
         payload.add_dataset(path + "/half_extents_m", copy_1d(tool.half_extents_m), "m");
+    else
+        add_number("radius_m", tool.radius_m, "m");
+    if (tool.shape == ToolShape::capsule) add_number("half_length_m", tool.half_length_m, "m");
+    if (tool.contact == ToolContact::coulomb)
+        add_number("friction_coefficient", tool.friction_coefficient, "1");
     payload.add_dataset(path + "/rest_position_m", copy_1d(tool.rest_position_m), "m");
     payload.add_dataset(path + "/rest_orientation_wxyz", copy_1d(tool.rest_orientation_wxyz), "1");
     payload.add_dataset(path + "/nodes", view_1d(tool.nodes), "1");
+}
+
+void encode_embedding(Payload& payload, const SurfaceEmbedding& embedding, const std::string& group) {
+    payload.add_group(group);
+    payload.add_dataset(group + "/tetrahedron", view_1d(embedding.tetrahedron), "1");
+    payload.add_dataset(group + "/weights", view_2d(embedding.weights), "1");
+    if (!embedding.still_vertices_m.empty())
+        payload.add_dataset(group + "/still_vertices_m", view_2d(embedding.still_vertices_m), "m");
+    payload.add_dataset(group + "/triangles", view_2d(embedding.triangles), "1");
 }
 
 /// Groups that exist only when they say something.
@@ -74,6 +91,18 @@ void encode_optional_groups(Payload& payload, const Asset& asset) {
         payload.add_group(kAsset + "/surface");
         payload.add_dataset(kAsset + "/surface/triangles", view_2d(asset.surface.triangles), "1");
     }
+    if (!asset.embedding.triangles.empty()) encode_embedding(payload, asset.embedding, kAsset + "/embedding");
+}
+
+/// Readers of format 1.0 take neither for something they know: they are to refuse by name.
+std::vector<std::string> required_features(const Asset& asset) {
+    const auto any = [&](auto&& has) { return std::any_of(asset.tools.begin(), asset.tools.end(), has); };
+    std::vector<std::string> features;
+    if (any([](const ToolSet& tool) { return tool.shape == ToolShape::capsule; }))
+        features.emplace_back(kCapsuleFeature);
+    if (any([](const ToolSet& tool) { return tool.contact == ToolContact::coulomb; }))
+        features.emplace_back(kCoulombFeature);
+    return features;
 }
 
 /// Requests stand outside the content hash: a comment added to the scene moves its lines, not the asset.
@@ -107,6 +136,7 @@ Status write_asset(const std::filesystem::path& file, const Asset& asset, const 
         plan.payload.nodes[mesh].attributes["free_node_count"] = scalar(asset.free_node_count);
         encode_palette(plan.payload, asset);
         encode_optional_groups(plan.payload, asset);
+        plan.required_features = required_features(asset);
         encode_requests(plan.provenance, asset.requests);
         plan.vtk = VtkPart{mesh + "/nodes_m",
                            mesh + "/tetrahedra",

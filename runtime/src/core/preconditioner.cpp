@@ -61,8 +61,8 @@ Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, con
     : model_(model),
       fields_(kernels(target).field<S>()),
       masses_(model),
+      expected_dt_s_(dt_s),
       dt_s_(dt_s),
-      inertia_(1 + model.damping_per_s * dt_s),
       rotation_shares_(numerics.contrast <= kLaggingContrast ? kRotationShares : 1),
       rotations_(model),
       matrix_(model, numerics.preconditioner == knead::Preconditioner::laplacian ? RestMatrix::Kind::laplacian
@@ -72,7 +72,7 @@ Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, con
       node_stiffness_(node_stiffnesses(model)),
       held_stiffness_(model.bonded.size(), 0),
       tool_inverse_(model.bonded.size(), Mat::Zero()) {
-    matrix_.set(dt_s_, inertia_);
+    matrix_.set(dt_s_, 1 + model.damping_per_s * dt_s_);
     if (numerics.preconditioner != knead::Preconditioner::block_jacobi) {
         // More exact storage where the numbers do not fit; block Jacobi where nothing is positive definite.
         for (const knead::FactorStorage storage :
@@ -103,6 +103,7 @@ bool Preconditioner<S>::make_factor(FactorStorage storage, SimdTarget target) {
 template <class S>
 void Preconditioner<S>::make_blocks(std::uint32_t first, std::uint32_t stride) noexcept {
     const MatrixPattern& pattern = matrix_.pattern();
+    if (blocks_.empty()) return;
     for (std::uint32_t i = first; i < model_.free_count; i += stride) {
         const double* const value = matrix_.values() + std::size_t{9} * pattern.column_begin[i];
         const Mat block = Eigen::Map<const Eigen::Matrix3d>(value).inverse();
@@ -168,17 +169,27 @@ void Preconditioner<S>::find_responses() noexcept {
 template <class S>
 void Preconditioner<S>::reset() noexcept {
     rotations_.reset();
+    steps_wanted_ = 0;
+    wanted_dt_s_ = 0;
+    if (dt_s_ == expected_dt_s_ && !working_) return;
+    // Steps depend on nothing but the steps since the reset.
+    working_ = false;
+    dt_s_ = expected_dt_s_;
+    matrix_.set(dt_s_, 1 + model_.damping_per_s * dt_s_);
+    if (factor_) (void)factor_->factorise(matrix_.values());
+    else make_blocks(0, 1);
+    find_responses();
 }
 
 template <class S>
 void Preconditioner<S>::begin_step(const System<S>& system) noexcept {
     if (turns()) rotations_.update(system.elements, rotation_shares_);
-    follow(system.dt_s, system.inertia);
+    follow(system.dt_s);
 }
 
 /// Numbers for another dt, once it lasts.
 template <class S>
-void Preconditioner<S>::follow(Real dt_s, Real inertia) noexcept {
+void Preconditioner<S>::follow(Real dt_s) noexcept {
     if (!working_) {
         if (about_same(dt_s, dt_s_)) {
             steps_wanted_ = 0;
@@ -186,9 +197,8 @@ void Preconditioner<S>::follow(Real dt_s, Real inertia) noexcept {
         }
         steps_wanted_ = about_same(dt_s, wanted_dt_s_) ? steps_wanted_ + 1 : 1;
         wanted_dt_s_ = dt_s;
-        wanted_inertia_ = inertia;
         if (steps_wanted_ < kLastingSteps) return;
-        matrix_.set(wanted_dt_s_, wanted_inertia_);
+        matrix_.set(wanted_dt_s_, 1 + model_.damping_per_s * wanted_dt_s_);
         if (factor_) factor_->begin(matrix_.values());
         next_block_ = 0;
         working_ = true;
@@ -207,7 +217,6 @@ void Preconditioner<S>::follow(Real dt_s, Real inertia) noexcept {
         steps_wanted_ = 0;
     }
     dt_s_ = wanted_dt_s_;
-    inertia_ = wanted_inertia_;
     find_responses();
 }
 

@@ -23,6 +23,7 @@ class Preconditioner {
     Preconditioner(const Model& model, Elements<S>& elements, const Numerics& numerics, SimdTarget target,
                    Real dt_s);
 
+    /// As just constructed. Makes the numbers anew if they follow another dt.
     void reset() noexcept;
 
     /// Once for each step, after elements have been linearised.
@@ -55,7 +56,7 @@ class Preconditioner {
     void make_blocks(std::uint32_t first, std::uint32_t stride) noexcept;
     void find_borders(Elements<S>& elements);
     void find_responses() noexcept;
-    void follow(Real dt_s, Real inertia) noexcept;
+    void follow(Real dt_s) noexcept;
     void solve(const NodeField<S>& residual, NodeField<S>& out) const noexcept;
     template <class T>
     void solve_with(AlignedArray<T>& packed, const NodeField<S>& residual, NodeField<S>& out) const noexcept;
@@ -64,7 +65,8 @@ class Preconditioner {
     const Model& model_;
     const FieldKernels<S>& fields_;
     const Masses<S> masses_;
-    Real dt_s_, inertia_ = 1;  ///< of the numbers in use
+    const Real expected_dt_s_;
+    Real dt_s_;  ///< of the numbers in use
     std::uint32_t rotation_shares_;
     NodeRotations<S> rotations_;
     RestMatrix matrix_;
@@ -79,7 +81,7 @@ class Preconditioner {
     std::vector<Mat> tool_inverse_;       ///< [tools] moving ones: of what is left for the tool itself
 
     // Another dt.
-    Real wanted_dt_s_ = 0, wanted_inertia_ = 1;
+    Real wanted_dt_s_ = 0;
     int steps_wanted_ = 0;
     bool working_ = false;
     std::uint32_t next_block_ = 0;

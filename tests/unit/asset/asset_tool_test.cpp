@@ -58,9 +58,17 @@ TEST(Info_of_an_asset, Shows_groups_bytes_and_the_line_of_the_scene) {
     const Description description{inspect_file(folder / "a.hdf").value(), asset};
     const std::string text = info_text(description);
     EXPECT_THAT(text, HasSubstr("asked for by app.gravity (line 30)"));
+    EXPECT_THAT(text, HasSubstr("needs           capsule_tool\nneeds           coulomb_contact\n"));
+    EXPECT_THAT(text, HasSubstr("ball: sphere of radius 0.01 m, frictionless, 0 nodes\n"));
+    EXPECT_THAT(text, HasSubstr("finger: capsule of radius 0.005 m and half length 0.02 m, "
+                                "coulomb with friction 0.3, 2 nodes\n"));
+    EXPECT_THAT(text,
+                HasSubstr("numerics        contrast 10, Poisson's ratio up to 0.45, 6 tetrahedra: solved in "
+                          "float32 (low contrast), preconditioned by the factor of the rest state (few "
+                          "tetrahedra) kept in half (low contrast)\n"));
+    EXPECT_THAT(text, HasSubstr("embedding       4 vertices, 1 of them still, 2 triangles\n"));
     EXPECT_THAT(text, HasSubstr("--name=a b"));
     EXPECT_THAT(text, HasSubstr("E 22000 Pa, nu 0.3, density 1000 kg/m^3, 3 tetrahedra"));
-    EXPECT_THAT(text, HasSubstr("ball: sphere, frictionless, 0 nodes"));
     const std::string json = info_json(description);
     EXPECT_THAT(json, HasSubstr("\"scene_key\": \"app.gravity\",\n      \"scene_line\": 30"));
     EXPECT_THAT(json, HasSubstr("\"kind\": \"asset\""));

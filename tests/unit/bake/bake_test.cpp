@@ -115,6 +115,32 @@ TEST(Bake, Puts_a_tool_without_position_on_the_highest_of_its_nodes) {
     EXPECT_NEAR(position[2], 0.12, 1e-12);
 }
 
+TEST(Bake, Puts_a_capsule_without_position_on_the_highest_of_its_nodes_whatever_its_orientation) {
+    constexpr double kTop = 0.1, kRadius = 0.02, kHalfLength = 0.05;
+    constexpr double kRounding = 1e-12;  // of a few additions of tenths
+    const double root = std::sqrt(0.5);
+    const std::pair<std::array<double, 4>, double> cases[] = {
+        {{1, 0, 0, 0}, kTop + kRadius + kHalfLength},                                           // upright
+        {{0, 1, 0, 0}, kTop + kRadius + kHalfLength},                                           // upside down
+        {{root, 0, root, 0}, kTop + kRadius},                                                   // lying
+        {{std::cos(M_PI / 6), std::sin(M_PI / 6), 0, 0}, kTop + kRadius + 0.5 * kHalfLength}};  // 60 degrees
+    for (const auto& [orientation, height] : cases) {
+        Scene scene = press_scene();
+        SceneTool& tool = scene.tools[0];
+        tool.shape = ToolShape::capsule;
+        tool.contact = ToolContact::coulomb;
+        tool.radius_m = kRadius;
+        tool.half_length_m = kHalfLength;
+        tool.friction_coefficient = 0.3;
+        tool.orientation_wxyz = orientation;
+        const ToolSet baked = bake(scene, scene.levels[0], two_halves()).tools[0];
+        EXPECT_NEAR(baked.rest_position_m[0], 0.05, kRounding);
+        EXPECT_NEAR(baked.rest_position_m[2], height, kRounding);
+        EXPECT_EQ(baked.half_length_m, kHalfLength);
+        EXPECT_EQ(baked.friction_coefficient, 0.3);
+    }
+}
+
 TEST(Bake, Writes_only_what_the_scene_asks_for) {
     Scene scene = press_scene();
     const Asset plain = bake(scene, scene.levels[0], two_halves());
@@ -130,6 +156,41 @@ TEST(Bake, Writes_only_what_the_scene_asks_for) {
     EXPECT_EQ(full.requests[3].group, "/knead/asset/gravity");
     EXPECT_EQ(full.requests[3].scene_line, 21u);
     EXPECT_EQ(full.requests[4].scene_key, "app.surface");
+}
+
+TEST(Bake, Ties_a_skin_to_the_tetrahedra_of_the_asset_and_leaves_the_rest_still) {
+    Scene scene = press_scene();
+    scene.held[0].side.clear();
+    scene.held[0].box_m = {Point{0, 0, 0}, Point{0.1, 0.1, 0.04}};  // the lowest of three layers
+    scene.embedding = EmbeddingSource{};
+    scene.embedding->line = 30;
+    Skin skin;
+    skin.vertices_m = {{0.02, 0.03, 0.01}, {0.06, 0.05, 0.05}, {0.04, 0.08, 0.102}};
+    skin.triangles = {{0, 1, 2}};
+    const Asset asset = bake(scene, scene.levels[0], two_halves(), skin);
+    ASSERT_EQ(asset.tetrahedra.size(), 6u * 9u * 2u);
+    ASSERT_EQ(asset.embedding.tetrahedron.size(), 2u);
+    EXPECT_EQ(asset.embedding.still_vertices_m, std::vector<Point>{skin.vertices_m[0]});
+    EXPECT_EQ(asset.embedding.triangles[0], (std::array<std::uint32_t, 3>{2, 0, 1}));
+    for (std::size_t v = 0; v < 2; ++v) {
+        Point position{};
+        for (std::size_t k = 0; k < 4; ++k)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                position[axis] += asset.embedding.weights[v][k] *
+                                  asset.nodes_m[asset.tetrahedra[asset.embedding.tetrahedron[v]][k]][axis];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(position[axis], skin.vertices_m[v + 1][axis], 1e-7);  // float weights
+    }
+    EXPECT_EQ(asset.requests.back().group, "/knead/asset/embedding");
+    EXPECT_EQ(asset.requests.back().scene_line, 30u);
+    skin.vertices_m[2][2] = 0.2;
+    try {
+        (void)bake(scene, scene.levels[0], two_halves(), skin);
+        FAIL() << "a vertex 10 cm outside was accepted";
+    } catch (const ToolError& error) {
+        EXPECT_THAT(error.what(),
+                    HasSubstr("cube.toml:30: embedding: 1 of 3 vertices lie more than 0.005 m"));
+    }
 }
 
 TEST(Bake, Without_held_nodes_is_a_free_body) {

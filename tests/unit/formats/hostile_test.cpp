@@ -340,6 +340,99 @@ TEST_F(Hostile, A_dataset_added_by_a_newer_minor_version_is_covered_by_the_hash_
     expect(ErrorCode::corrupt, "hash");  // not repaired by bend(): the addition itself was accepted
 }
 
+/// The same for an asset; its third tool is a capsule with friction.
+class Hostile_asset : public Hostile {
+  protected:
+    void SetUp() override {
+        file_ = folder_ / "asset.hdf";
+        ASSERT_TRUE(write_asset(file_, sample_asset(), sample_provenance()).ok());
+    }
+
+    void expect_refused(ErrorCode code, const std::string& part) {
+        const Result<Asset> result = read_asset(file_);
+        ASSERT_FALSE(result.ok());
+        EXPECT_EQ(static_cast<int>(result.error().code), static_cast<int>(code)) << result.error().text();
+        EXPECT_NE(result.error().text().find(part), std::string::npos) << result.error().text();
+    }
+
+    void set_text(const char* object, const char* name, const std::string& text) {
+        bend([&](hid_t file) {
+            const hid_t group = H5Oopen(file, object, H5P_DEFAULT);
+            set_attribute(group, name, text_type(text.size()), {}, text.data());
+            H5Oclose(group);
+        });
+    }
+};
+
+TEST_F(Hostile_asset, A_shape_or_contact_that_does_not_exist_gives_invalid_data) {
+    set_text("/knead/asset/tools/000001", "shape", "torus");
+    expect_refused(ErrorCode::invalid_data, "asset.hdf#/knead/asset/tools/000001@shape");
+    set_text("/knead/asset/tools/000001", "shape", "sphere");
+    set_text("/knead/asset/tools/000001", "contact", "glued");
+    expect_refused(ErrorCode::invalid_data, "\"glued\" is not a contact");
+}
+
+TEST_F(Hostile_asset, A_shape_or_contact_without_its_numbers_gives_missing) {
+    set_text("/knead/asset/tools/000001", "shape", "capsule");
+    expect_refused(ErrorCode::missing, "/tools/000001/half_length_m");
+    set_text("/knead/asset/tools/000001", "shape", "plate");
+    expect_refused(ErrorCode::missing, "/tools/000001/half_extents_m");
+    set_text("/knead/asset/tools/000001", "shape", "sphere");
+    set_text("/knead/asset/tools/000001", "contact", "coulomb");
+    expect_refused(ErrorCode::missing, "/tools/000001/friction_coefficient");
+}
+
+TEST_F(Hostile_asset, Numbers_of_another_shape_or_contact_give_invalid_data) {
+    set_text("/knead/asset/tools/000002", "shape", "sphere");
+    expect_refused(ErrorCode::invalid_data, "/tools/000002/half_length_m: does not belong");
+    set_text("/knead/asset/tools/000002", "shape", "capsule");
+    set_text("/knead/asset/tools/000002", "contact", "sticking");
+    expect_refused(ErrorCode::invalid_data, "/tools/000002/friction_coefficient: does not belong");
+}
+
+TEST_F(Hostile_asset, An_embedding_of_other_types_or_extents_is_refused_with_its_place) {
+    const std::string group = "/knead/asset/embedding/";
+    const auto replaced = [&](const char* name, hid_t type, const std::vector<hsize_t>& extents,
+                              ErrorCode code, const std::string& part) {
+        ASSERT_TRUE(write_asset(file_, sample_asset(), {}).ok());
+        bend([&](hid_t file) {
+            const hid_t dataset = replace_dataset(file, (group + name).c_str(), type, extents);
+            set_attribute(dataset, "units", text_type(1), {}, "1");
+            H5Dclose(dataset);
+        });
+        expect_refused(code, part);
+    };
+    replaced("weights", H5T_IEEE_F64LE, {3, 4}, ErrorCode::wrong_type, "embedding/weights");
+    replaced("weights", H5T_IEEE_F32LE, {2, 4}, ErrorCode::wrong_extent, "[2, 4], not [3, 4]");
+    replaced("weights", H5T_IEEE_F32LE, {3, 3}, ErrorCode::wrong_extent, "embedding/weights");
+    replaced("tetrahedron", H5T_STD_I32LE, {3}, ErrorCode::wrong_type, "embedding/tetrahedron");
+    replaced("triangles", H5T_STD_U32LE, {6}, ErrorCode::wrong_extent, "embedding/triangles");
+    replaced("still_vertices_m", H5T_IEEE_F64LE, {1, 3}, ErrorCode::invalid_data, "instead of \"m\"");
+    replaced("extra", H5T_STD_U32LE, {6}, ErrorCode::invalid_data, "embedding/extra: does not belong");
+    ReadLimits limits;
+    limits.max_nodes = 8;
+    ASSERT_TRUE(write_asset(file_, sample_asset(), {}).ok());
+    EXPECT_TRUE(read_asset(file_, limits).ok());
+    Asset asset = sample_asset();
+    asset.embedding.still_vertices_m.assign(6, {});
+    ASSERT_TRUE(write_asset(file_, asset, {}).ok());
+    EXPECT_EQ(read_asset(file_, limits).error().code, ErrorCode::too_large);
+    bend([&](hid_t file) { H5Ldelete(file, (group + "triangles").c_str(), H5P_DEFAULT); });
+    expect_refused(ErrorCode::missing, "embedding/triangles");
+}
+
+TEST_F(Hostile_asset, Names_the_features_that_older_readers_lack_and_no_others) {
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(read_header(file_).value().required_features, (Names{"capsule_tool", "coulomb_contact"}));
+    Asset asset = sample_asset();
+    asset.tools[2].contact = ToolContact::sticking;
+    ASSERT_TRUE(write_asset(file_, asset, {}).ok());
+    EXPECT_EQ(read_header(file_).value().required_features, Names{"capsule_tool"});
+    asset.tools.pop_back();
+    ASSERT_TRUE(write_asset(file_, asset, {}).ok());
+    EXPECT_EQ(read_header(file_).value().required_features, Names{});
+}
+
 TEST_F(Hostile, Whatever_was_read_leaves_the_printing_of_HDF5_as_it_was) {
     H5E_auto2_t before = nullptr, after = nullptr;
     void* data = nullptr;

@@ -5,6 +5,7 @@
 
 #include "knead/formats/compare.h"
 #include "knead/formats/inspect.h"
+#include "knead/formats/read_stored.h"
 #include "samples.h"
 
 namespace knead::test {
@@ -81,6 +82,26 @@ TEST(Comparison, With_a_tolerance_for_an_unknown_dataset_gives_invalid_argument)
     };
     EXPECT_EQ(code({{}, {{"nodes", {1, 0}}}}), ErrorCode::invalid_argument);
     EXPECT_EQ(code({{-1, 0}, {}}), ErrorCode::invalid_argument);
+}
+
+template <class T>
+void expect_header_hash(const std::filesystem::path& file) {
+    const Result<Stored<T>> stored = read_stored<T>(file);
+    ASSERT_TRUE(stored.ok()) << stored.error().text();
+    EXPECT_EQ(stored.value().content_hash, read_header(file).value().content_hash);
+}
+
+TEST(Stored_value, Comes_with_the_content_hash_of_the_header) {
+    const Folder folder;
+    ASSERT_TRUE(write_clustering(folder / "a.hdf", sample_clustering(), {}).ok());
+    expect_header_hash<TetMesh>(folder / "a.hdf");
+    expect_header_hash<MaterialObject>(folder / "a.hdf");
+    expect_header_hash<ClusteredObject>(folder / "a.hdf");
+    ASSERT_TRUE(write_overlap(folder / "a.hdf", sample_overlap(), {}).ok());
+    expect_header_hash<OverlapMatrix>(folder / "a.hdf");
+    EXPECT_EQ(read_stored<TetMesh>(folder / "a.hdf").error().code, ErrorCode::wrong_kind);
+    ASSERT_TRUE(write_asset(folder / "a.hdf", sample_asset(), {}).ok());
+    expect_header_hash<Asset>(folder / "a.hdf");
 }
 
 TEST(Validation_of_a_file, Gives_the_kind_of_each) {

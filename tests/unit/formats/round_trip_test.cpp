@@ -82,9 +82,12 @@ OverlapMatrix any_overlap() {
 ToolSet any_tool(std::uint32_t free_nodes, int number) {
     ToolSet tool;
     tool.name = "tool " + std::to_string(number);
-    tool.shape = *rc::gen::element(ToolShape::plate, ToolShape::sphere);
-    tool.contact = *rc::gen::element(ToolContact::bonded, ToolContact::sticking, ToolContact::frictionless);
-    if (tool.shape == ToolShape::sphere)
+    tool.shape = *rc::gen::element(ToolShape::plate, ToolShape::sphere, ToolShape::capsule);
+    tool.contact = *rc::gen::element(ToolContact::bonded, ToolContact::sticking, ToolContact::frictionless,
+                                     ToolContact::coulomb);
+    if (tool.shape == ToolShape::capsule) tool.half_length_m = *rc::gen::inRange(1, 100) / 77.0;
+    if (tool.contact == ToolContact::coulomb) tool.friction_coefficient = *rc::gen::inRange(1, 101) / 10.0;
+    if (tool.shape != ToolShape::plate)
         tool.radius_m = *rc::gen::inRange(1, 100) / 777.0;
     else if (*rc::gen::arbitrary<bool>())
         tool.half_extents_m = {*rc::gen::inRange(1, 100) / 7.0, 0.25};
@@ -115,6 +118,12 @@ Asset any_asset() {
     if (*rc::gen::arbitrary<bool>()) asset.gravity_m_per_s2 = {0, -9.81, 0.1};
     if (*rc::gen::arbitrary<bool>()) asset.damping_per_s = 0.1;
     if (*rc::gen::arbitrary<bool>()) asset.surface.triangles = {{0, 1, 2}, {1, 2, 3}};
+    if (*rc::gen::arbitrary<bool>()) {
+        asset.embedding.tetrahedron.assign(*rc::gen::inRange(0, 99), 1);
+        asset.embedding.weights.assign(asset.embedding.tetrahedron.size(), {0.125F, -0.5F, 1.375F, 0});
+        asset.embedding.still_vertices_m.assign(*rc::gen::inRange(3, 9), {0.1, 1e9, -2});
+        asset.embedding.triangles = {{0, 1, 2}, {1, 2, 0}};
+    }
     if (*rc::gen::arbitrary<bool>())
         asset.requests = {{"/knead/asset", "", 0}, {"/knead/asset/tools", "tool", 4}};
     return asset;

@@ -41,6 +41,7 @@ inline bool same(const OverlapMatrix& a, const OverlapMatrix& b) {
 
 inline bool same(const ToolSet& a, const ToolSet& b) {
     return a.name == b.name && a.shape == b.shape && a.contact == b.contact && a.radius_m == b.radius_m &&
+           a.half_length_m == b.half_length_m && a.friction_coefficient == b.friction_coefficient &&
            a.half_extents_m == b.half_extents_m && a.rest_position_m == b.rest_position_m &&
            a.rest_orientation_wxyz == b.rest_orientation_wxyz && a.nodes == b.nodes;
 }
@@ -64,7 +65,10 @@ inline bool same(const Asset& a, const Asset& b) {
     return a.name == b.name && a.level == b.level && a.nodes_m == b.nodes_m &&
            a.free_node_count == b.free_node_count && a.tetrahedra == b.tetrahedra &&
            a.palette_index == b.palette_index && a.gravity_m_per_s2 == b.gravity_m_per_s2 &&
-           a.damping_per_s == b.damping_per_s && a.surface.triangles == b.surface.triangles;
+           a.damping_per_s == b.damping_per_s && a.surface.triangles == b.surface.triangles &&
+           a.embedding.tetrahedron == b.embedding.tetrahedron && a.embedding.weights == b.embedding.weights &&
+           a.embedding.still_vertices_m == b.embedding.still_vertices_m &&
+           a.embedding.triangles == b.embedding.triangles;
 }
 
 inline bool same(const Provenance& a, const Provenance& b) {

@@ -115,10 +115,22 @@ inline Asset sample_asset(std::uint32_t n = 1) {
     ball.contact = ToolContact::frictionless;
     ball.radius_m = 0.01;
     ball.rest_orientation_wxyz = {0, 1, 0, 0};
-    asset.tools = {press, ball};
+    ToolSet finger;
+    finger.name = "finger";
+    finger.shape = ToolShape::capsule;
+    finger.contact = ToolContact::coulomb;
+    finger.radius_m = 0.005;
+    finger.half_length_m = 0.02;
+    finger.friction_coefficient = 0.3;
+    finger.nodes = {1, 4};
+    asset.tools = {press, ball, finger};
     asset.gravity_m_per_s2 = {0, 0, -9.81};
     asset.damping_per_s = 2.5;
     asset.surface.triangles = {{0, 1, 3}, {0, 3, 2}};
+    asset.embedding.tetrahedron = {0, 5, 3};
+    asset.embedding.weights = {{1, 0, 0, 0}, {0.25F, 0.25F, 0.5F, 0}, {1.5F, -0.25F, -0.25F, 0}};
+    asset.embedding.still_vertices_m = {{0.05, 0.05, -0.001}};
+    asset.embedding.triangles = {{0, 1, 2}, {0, 2, 3}};
     asset.requests = {{"/knead/asset/tools/000000", "tool[0]", 12},
                       {"/knead/asset/gravity", "app.gravity", 30}};
     return asset;

@@ -55,7 +55,7 @@ TEST(Step, never_allocates) {
             const Asset asset = cube_asset(4, shape, ToolContact::frictionless);
             SimulationConfig config;
             config.coupling_stiffness_n_per_m = stiffness;
-            core::Stepper stepper(asset, config);
+            Stepper stepper(asset, config);
             const long before = allocations;
             std::uint32_t most_touched = 0;
             for (int i = 0; i < 200; ++i) {

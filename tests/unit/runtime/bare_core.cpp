@@ -16,10 +16,10 @@ int main() {
     tool.rest_position_m = {0, 0, 1};
     tool.nodes = {0};
     asset.tools = {tool};
-    knead::core::Stepper stepper(asset, {});
+    const std::unique_ptr<knead::core::Stepper> stepper = knead::core::make_stepper(asset, {});
     knead::Pose pose;
     pose.position_m = {0, 0, 0.9};
-    const knead::StepResult result = stepper.step(pose, 1e-3);
+    const knead::StepResult result = stepper->step(&pose, 1e-3);
     const bool good = result.status == knead::kStepOk && result.force_n[2] > 0;
     std::printf("%s: %g N\n", good ? "ok" : "FAILED", result.force_n[2]);
     return good ? 0 : 1;

@@ -10,7 +10,6 @@
 namespace knead::test {
 namespace {
 
-using core::Stepper;
 using core::Vec;
 
 /// No slip: two independent programs. Free slip: the factor 1.033 of the design's experiments, known to 3

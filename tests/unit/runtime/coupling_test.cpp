@@ -8,7 +8,6 @@
 namespace knead::test {
 namespace {
 
-using core::Stepper;
 using core::Vec;
 
 SimulationConfig coupled(double stiffness_n_per_m, double damping_n_s_per_m, double mass_kg = 0.05) {

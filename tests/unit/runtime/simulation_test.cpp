@@ -28,7 +28,7 @@ TEST(Simulation, made_from_memory_says_its_sizes_and_steps) {
     EXPECT_EQ(result.status, kStepOk);
     EXPECT_GT(result.force_n[2], 0);
     const auto node = asset.tools[0].nodes[0];
-    EXPECT_NEAR(simulation.value().positions_m()[3 * node + 2], 0.099, 1e-12);
+    EXPECT_NEAR(simulation.value().positions_m()[3 * node + 2], 0.099, 1e-9);
     simulation.value().reset();
     EXPECT_EQ(simulation.value().positions_m()[3 * node + 2], asset.nodes_m[node][2]);
 }
@@ -59,7 +59,10 @@ TEST(Simulation, with_a_config_out_of_range_is_refused_and_told_which) {
         EXPECT_EQ(simulation.error().code, ErrorCode::invalid_argument);
         EXPECT_NE(simulation.error().text().find(member), std::string::npos) << simulation.error().text();
     };
-    refused("tool", [](auto& c) { c.tool = 1; });
+    refused("tools", [](auto& c) { c.tools = {1}; });
+    refused("tools", [](auto& c) { c.tools = {0, 0}; });
+    refused("tools", [](auto& c) { c.tools.clear(); });
+    refused("expected_dt_s", [](auto& c) { c.expected_dt_s = 0; });
     refused("force_tolerance", [](auto& c) { c.force_tolerance = 0; });
     refused("force_tolerance", [nan](auto& c) { c.force_tolerance = nan; });
     refused("force_tolerance", [](auto& c) { c.force_tolerance = 0.2; });

@@ -132,6 +132,76 @@ TEST_F(SceneFile, With_a_box_reads_both_corners_with_units) {
     EXPECT_EQ(box[1], (Point{0.09, 0.09, 1}));
 }
 
+TEST_F(SceneFile, With_a_capsule_and_friction_is_read_with_units) {
+    const Scene scene =
+        read_scene(write(replaced("shape = \"plate\"\ncontact = \"bonded\"",
+                                  "shape = \"capsule\"\nradius = \"5mm\"\nhalf_length = \"2cm\"\n"
+                                  "contact = \"coulomb\"\nfriction = 0.3")));
+    const SceneTool& tool = scene.tools.at(0);
+    EXPECT_EQ(tool.shape, ToolShape::capsule);
+    EXPECT_EQ(tool.contact, ToolContact::coulomb);
+    EXPECT_EQ(tool.radius_m, 0.005);
+    EXPECT_EQ(tool.half_length_m, 0.02);
+    EXPECT_EQ(tool.friction_coefficient, 0.3);
+}
+
+TEST_F(SceneFile, With_a_capsule_that_lacks_a_length_is_refused_with_its_line) {
+    const auto error = [&](const std::string& lines) {
+        return error_of(replaced("shape = \"plate\"", "shape = \"capsule\"\n" + lines));
+    };
+    EXPECT_THAT(error("radius = 0.01"), HasSubstr("tool[0].half_length is required for a capsule"));
+    EXPECT_THAT(error("half_length = 0.01"), HasSubstr("tool[0].radius is required for a capsule"));
+    EXPECT_THAT(error("radius = 0.01\nhalf_length = 0"),
+                HasSubstr(".toml:21: tool[0].half_length must be positive"));
+    EXPECT_THAT(
+        error("radius = 0.01\nhalf_lenght = 0.1"),
+        HasSubstr(".toml:21: unknown key \"tool[0].half_lenght\"; did you mean \"tool[0].half_length\"?"));
+    EXPECT_THAT(error("radius = 0.01\nhalf_length = 0.1\nhalf_extents = [1, 1]"),
+                HasSubstr(".toml:22: unknown key \"tool[0].half_extents\""));
+    EXPECT_THAT(error_of(replaced("\"plate\"", "\"capsul\"")), HasSubstr("did you mean \"capsule\"?"));
+}
+
+TEST_F(SceneFile, With_friction_that_nobody_uses_or_that_makes_no_sense_is_refused_with_its_line) {
+    const auto error = [&](const std::string& lines) {
+        return error_of(replaced("contact = \"bonded\"", lines));
+    };
+    EXPECT_THAT(error("contact = \"coulomb\""), HasSubstr("tool[0].friction is required for contact"));
+    EXPECT_THAT(error("contact = \"coulomb\"\nfricton = 1"), HasSubstr("did you mean \"tool[0].friction\"?"));
+    for (const char* bad : {"0", "-0.3", "10.01"})
+        EXPECT_THAT(error(std::string("contact = \"coulomb\"\nfriction = ") + bad),
+                    HasSubstr(".toml:21: tool[0].friction must be greater than 0 and at most 10"));
+    EXPECT_THAT(error("contact = \"coulomb\"\nfriction = nan"), HasSubstr("must be a finite number"));
+    EXPECT_THAT(error("contact = \"sticking\"\nfriction = 0.3"),
+                HasSubstr(".toml:21: tool[0].friction belongs to contact = \"coulomb\" only"));
+    EXPECT_THAT(error("contact = \"columb\""), HasSubstr("did you mean \"coulomb\"?"));
+}
+
+TEST_F(SceneFile, With_an_embedding_reads_its_file_beside_the_scene_and_its_unit) {
+    const Scene scene =
+        read_scene(write(std::string(kCube) +
+                         "[embedding]\nfile = \"skin.stl\"\nlength_unit = \"mm\"\nmax_distance = \"3mm\"\n"));
+    ASSERT_TRUE(scene.embedding.has_value());
+    EXPECT_EQ(scene.embedding->file, scene.file.parent_path() / "skin.stl");
+    EXPECT_EQ(scene.embedding->metres_per_unit, 1e-3);
+    EXPECT_EQ(scene.embedding->max_distance_m, 3e-3);
+    EXPECT_EQ(scene.embedding->line, 22u);
+    EXPECT_FALSE(read_scene(write(kCube)).embedding.has_value());
+}
+
+TEST_F(SceneFile, With_an_incomplete_embedding_is_refused_with_its_line) {
+    const auto error = [&](const std::string& lines) {
+        return error_of(std::string(kCube) + "[embedding]\n" + lines);
+    };
+    EXPECT_THAT(error("length_unit = \"mm\"\n"), HasSubstr(".toml:22: embedding.file is required"));
+    EXPECT_THAT(error("file = \"a.stl\"\n"), HasSubstr("embedding.length_unit is required: STL and PLY"));
+    EXPECT_THAT(error("file = \"a.stl\"\nlength_unit = \"m\"\nmax_distance = 0\n"),
+                HasSubstr(".toml:25: embedding.max_distance must be positive"));
+    EXPECT_THAT(error("file = \"a.stl\"\nlength_unit = \"m\"\nmax_distence = 1\n"),
+                HasSubstr("did you mean \"embedding.max_distance\"?"));
+    EXPECT_THAT(error_of(std::string(kCube) + "[embeding]\nfile = \"a.stl\"\n"),
+                HasSubstr(".toml:22: unknown key \"embeding\"; did you mean \"embedding\"?"));
+}
+
 TEST(NearestWord, Is_the_one_with_the_smallest_edit_distance_and_empty_when_none_is_near) {
     EXPECT_EQ(nearest_word("clutsers", {"bins", "clusters", "name"}), "clusters");
     EXPECT_EQ(nearest_word("xyzzy", {"bins", "clusters"}), "");

@@ -14,7 +14,7 @@ class AlignedArray {
   public:
     AlignedArray() = default;
     explicit AlignedArray(std::size_t size)
-        : size_(size), data_(static_cast<T*>(::operator new(bytes(), std::align_val_t{kAlignment}))) {
+        : size_(size), data_(static_cast<T*>(::operator new (bytes(), std::align_val_t{kAlignment}))) {
         std::memset(static_cast<void*>(data_), 0, bytes());
     }
     AlignedArray(AlignedArray&& other) noexcept
@@ -25,7 +25,7 @@ class AlignedArray {
         return *this;
     }
     ~AlignedArray() {
-        if (data_ != nullptr) ::operator delete(data_, std::align_val_t{kAlignment});
+        if (data_ != nullptr) ::operator delete (data_, std::align_val_t{kAlignment});
     }
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }

@@ -177,8 +177,10 @@ double ContactCorrection::table(std::uint32_t row, int r, std::uint32_t column, 
         std::swap(row, column);
         std::swap(r, c);
     }
-    const std::size_t place = 3 * std::size_t{keeps_columns_ ? touchable_[row] : row} + static_cast<std::size_t>(r);
-    return tables_[current_][(3 * std::size_t{column} + static_cast<std::size_t>(c)) * column_stride_ + place];
+    const std::size_t place =
+        3 * std::size_t{keeps_columns_ ? touchable_[row] : row} + static_cast<std::size_t>(r);
+    return tables_[current_]
+                  [(3 * std::size_t{column} + static_cast<std::size_t>(c)) * column_stride_ + place];
 }
 
 // ---- The set ---------------------------------------------------------------------------------------------
@@ -217,7 +219,8 @@ bool ContactCorrection::update(const HeldNode* held, std::size_t count, const Ma
 
 void ContactCorrection::remove_stale(const HeldNode* held, std::size_t count) noexcept {
     for (std::size_t k = 0; k < count; ++k)
-        if (touch_of_[held[k].node] != kNone) wanted_[touch_of_[held[k].node]] = static_cast<std::uint32_t>(k);
+        if (touch_of_[held[k].node] != kNone)
+            wanted_[touch_of_[held[k].node]] = static_cast<std::uint32_t>(k);
     const auto stale = [&](const Member& member) {
         return wanted_[member.touch] == kNone || !still_holds(member, held[wanted_[member.touch]]);
     };
@@ -241,7 +244,8 @@ bool ContactCorrection::still_holds(const Member& member, const HeldNode& held) 
 }
 
 /// W between the rows of two members.
-void ContactCorrection::coupling(const Member& a, const Member& b, double* block, std::size_t ld) const noexcept {
+void ContactCorrection::coupling(const Member& a, const Member& b, double* block,
+                                 std::size_t ld) const noexcept {
     Mat w;
     for (int c = 0; c < 3; ++c)
         for (int r = 0; r < 3; ++r)
@@ -334,7 +338,8 @@ void ContactCorrection::remove(std::size_t index) noexcept {
                 value += product_[k * ld_ + i] * schur(static_cast<int>(k), static_cast<int>(c));
             weighted_[c * ld_ + i] = value;
         }
-    kernels_.subtract_product(h, h, count, product_.data(), ld_, weighted_.data(), ld_, 1, inverse_.data(), ld_);
+    kernels_.subtract_product(h, h, count, product_.data(), ld_, weighted_.data(), ld_, 1, inverse_.data(),
+                              ld_);
     // Close the gap: rows, then columns.
     for (std::size_t c = 0; c < h; ++c) {
         if (c >= first && c < first + count) continue;
@@ -385,7 +390,8 @@ void ContactCorrection::subtract_columns(const double* reactions, float* x, Scra
         for (std::size_t k = member.first; k < member.first + member.count; ++k)
             force += reactions[k] * rows_[k].at_node;
         for (std::size_t c = 0; c < 3; ++c) {
-            scratch.columns_[used] = tables_[current_].data() + (3 * std::size_t{member.touch} + c) * column_stride_;
+            scratch.columns_[used] =
+                tables_[current_].data() + (3 * std::size_t{member.touch} + c) * column_stride_;
             scratch.factors_[used++] = static_cast<float>(force(static_cast<Eigen::Index>(c)));
         }
     }

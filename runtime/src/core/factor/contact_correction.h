@@ -17,11 +17,11 @@ struct HeldNode {
 /// complement on the held ones.
 ///
 /// With P = blkdiag(A^-1, tool inverses), the rows J of the held directions (the node's motion minus its
-/// tool's) and W = J P J^T, it is P - P J^T W^-1 J P: what a factor made for that set would give. W comes from
-/// a table of A^-1 for all nodes that can be touched; its inverse is kept for the nodes that have been *taken
-/// in* and bordered as nodes enter and leave. A node that is held but not taken in is left to the caller's
-/// projection, before and after; the whole stays symmetric and positive semidefinite. So it does while normals
-/// or rotations have turned since the node was taken in.
+/// tool's) and W = J P J^T, it is P - P J^T W^-1 J P: what a factor made for that set would give. W comes
+/// from a table of A^-1 for all nodes that can be touched; its inverse is kept for the nodes that have been
+/// *taken in* and bordered as nodes enter and leave. A node that is held but not taken in is left to the
+/// caller's projection, before and after; the whole stays symmetric and positive semidefinite. So it does
+/// while normals or rotations have turned since the node was taken in.
 ///
 /// Vectors of nodes are in the factor's frame, three numbers for each node; those of tools in the scene's.
 /// Allocates in the constructor only.
@@ -37,7 +37,7 @@ class ContactCorrection {
         SupernodalFactor::Scratch solve_;
         AlignedArray<float> single_;
         AlignedArray<double> double_;
-        AlignedArray<double> reactions_;       ///< two vectors of rows
+        AlignedArray<double> reactions_;  ///< two vectors of rows
         std::vector<const float*> columns_;
         std::vector<float> factors_;
         std::vector<Vec> tools_;
@@ -62,9 +62,10 @@ class ContactCorrection {
     /// begin(), all of advance(), adopt().
     void build() noexcept;
 
-    /// Follows the set of held nodes: who is no longer held, is held otherwise or has turned too far leaves at
-    /// once, at most `most_insertions` enter, first in the list first.
-    /// @param tool_inverses [tool_count] A moving tool's own part of P, 1/kg, scene frame; zero: does not move
+    /// Follows the set of held nodes: who is no longer held, is held otherwise or has turned too far leaves
+    /// at once, at most `most_insertions` enter, first in the list first.
+    /// @param tool_inverses [tool_count] A moving tool's own part of P, 1/kg, scene frame; zero: does not
+    /// move
     /// @return whether all that can be taken in have been
     bool update(const HeldNode* held, std::size_t count, const Mat* tool_inverses,
                 std::size_t most_insertions) noexcept;
@@ -125,8 +126,8 @@ class ContactCorrection {
     const std::vector<std::uint32_t> touchable_;
     std::vector<std::uint32_t> touch_of_;  ///< [nodes] index in touchable_, or kNone
     const bool keeps_columns_;
-    std::size_t column_stride_;            ///< numbers from one column to the next
-    AlignedArray<float> tables_[2];        ///< [touchable][3] columns of A^-1: all rows, or those touchable
+    std::size_t column_stride_;      ///< numbers from one column to the next
+    AlignedArray<float> tables_[2];  ///< [touchable][3] columns of A^-1: all rows, or those touchable
     int current_ = 0;
     bool in_use_ = false;
 

@@ -294,8 +294,8 @@ std::uint64_t FrontFactoriser::update_strip() noexcept {
 std::uint64_t FrontFactoriser::invert_strip() noexcept {
     const std::size_t width = width_at(at_);
     const std::size_t ld = front_.ld;
-    double* x = strip_.data();                             // rows from 0 on: the strip
-    double* solved = x + ld * layout_.max_width;           // the block row under way
+    double* x = strip_.data();                    // rows from 0 on: the strip
+    double* solved = x + ld * layout_.max_width;  // the block row under way
     const std::size_t height = width_at(inner_);
     const double* inverse = inverse_at(inner_);
     if (inner_ == at_) {

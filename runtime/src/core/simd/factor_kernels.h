@@ -24,10 +24,10 @@ enum class FactorStorage : std::uint8_t {
 /// columns lie together, lane by lane in the high and the low half of 32 bits: the high half is used with the
 /// low one as its fraction, so that one shift makes two numbers.
 struct FactorLayout {
-    std::uint32_t block = 3;      ///< numbers of a node: 3 or 1
-    std::uint32_t lanes = 16;     ///< rows of a tile
-    std::uint32_t max_width = 24; ///< columns of a strip; a multiple of `block`
-    bool pairs = false;           ///< columns are stored two together; a strip has an even number of them
+    std::uint32_t block = 3;       ///< numbers of a node: 3 or 1
+    std::uint32_t lanes = 16;      ///< rows of a tile
+    std::uint32_t max_width = 24;  ///< columns of a strip; a multiple of `block`
+    bool pairs = false;            ///< columns are stored two together; a strip has an even number of them
 
     /// Columns of storage for a strip of `width` columns.
     [[nodiscard]] std::size_t stored_width(std::size_t width) const noexcept {
@@ -56,8 +56,8 @@ struct FactorLayout {
 /// A factor as solves read it: A^-1 = G^T G with G the product of all panels. Plain pointers; owns nothing.
 struct FactorView {
     struct Supernode {
-        std::uint32_t first;      ///< place of the first column
-        std::uint32_t columns;    ///< nodes
+        std::uint32_t first;    ///< place of the first column
+        std::uint32_t columns;  ///< nodes
         std::uint32_t rows_begin;
         std::uint32_t row_count;  ///< nodes below the columns
         std::size_t values_begin;
@@ -69,7 +69,7 @@ struct FactorView {
     const std::uint32_t* place_of = nullptr;  ///< [node_count]
     std::size_t node_count = 0;
     const void* values = nullptr;
-    std::size_t own_stride = 0;    ///< numbers of a vector as long as the longest panel, with room beyond
+    std::size_t own_stride = 0;       ///< numbers of a vector as long as the longest panel, with room beyond
     const float* units = nullptr;     ///< [node_count * block] of each column, by place; fixed point only
     const float* diagonal = nullptr;  ///< [node_count * block] of W, squared, by place; fixed point only
 };
@@ -80,8 +80,8 @@ struct FactorKernels {
     std::uint32_t strip_width_blocks;  ///< layout.max_width for block 3
     std::uint32_t strip_width_scalar;  ///< layout.max_width for block 1
 
-    /// out = A^-1 rhs, three numbers for each node, node order. A scalar factor solves the three directions at
-    /// once. @param rhs may be out  @param scratch aligned, as long as SupernodalFactor::Scratch makes it
+    /// out = A^-1 rhs, three numbers for each node, node order. A scalar factor solves the three directions
+    /// at once. @param rhs may be out  @param scratch aligned, as long as SupernodalFactor::Scratch makes it
     void (*solve_float)(const FactorView&, FactorStorage, const float* rhs, float* out, float* scratch);
     void (*solve_double)(const FactorView&, const double* rhs, double* out, double* scratch);
     /// Three vectors at once, one after the other in memory, block 3 only.

@@ -15,7 +15,8 @@ namespace panels {
 #define KNEAD_INLINE [[gnu::always_inline]] inline
 #define KNEAD_INLINE_LAMBDA __attribute__((always_inline))
 
-// ---- Stored numbers ----------------------------------------------------------------------------------------
+// ---- Stored numbers
+// ----------------------------------------------------------------------------------------
 
 /// A number in fixed point, half of a pair.
 struct Fixed {
@@ -73,18 +74,23 @@ KNEAD_INLINE void strip_times(const T* tiles, std::size_t count, bool first, con
                               S* v, std::size_t stride_v) {
     using V = Wide<S>;
     constexpr std::size_t kTile = std::size_t{kStored<Width, T>} * kLanes<S>;
+    constexpr int kChains = 2;  // additions that do not wait for each other
     for (std::size_t t = 0; t < count; ++t, tiles += kTile, v += kLanes<S>) {
-        V sums[2][Rhs] = {};
+        V sums[kChains][Rhs] = {};
         if (!first)
             for (int k = 0; k < Rhs; ++k)
                 sums[0][k] = load<V>(v + k * stride_v);
         for_columns<Width, S>(tiles, [&](int c, const V& column) KNEAD_INLINE_LAMBDA {
 #pragma GCC unroll 3
             for (int k = 0; k < Rhs; ++k)
-                sums[c % 2][k] += column * y[k * stride_y + c];
+                sums[c % kChains][k] += column * y[k * stride_y + c];
         });
-        for (int k = 0; k < Rhs; ++k)
-            store(v + k * stride_v, sums[0][k] + sums[1][k]);
+        for (int k = 0; k < Rhs; ++k) {
+            V sum = sums[0][k];
+            for (int chain = 1; chain < kChains; ++chain)
+                sum += sums[chain][k];
+            store(v + k * stride_v, sum);
+        }
     }
 }
 
@@ -121,8 +127,8 @@ KNEAD_INLINE void sum_lanes(const Wide<float>* v, float* out) {
         const Q e = c + 3 < Count ? fold(v[c + 3]) : Q{};
         const Q ab = __builtin_shufflevector(a, b, 0, 4, 1, 5) + __builtin_shufflevector(a, b, 2, 6, 3, 7);
         const Q de = __builtin_shufflevector(d, e, 0, 4, 1, 5) + __builtin_shufflevector(d, e, 2, 6, 3, 7);
-        store(out + c, __builtin_shufflevector(ab, de, 0, 1, 4, 5) +
-                           __builtin_shufflevector(ab, de, 2, 3, 6, 7));
+        store(out + c,
+              __builtin_shufflevector(ab, de, 0, 1, 4, 5) + __builtin_shufflevector(ab, de, 2, 3, 6, 7));
     }
 }
 
@@ -265,7 +271,8 @@ KNEAD_INLINE void forward(const FactorView& view, const FactorView::Supernode& s
     if constexpr (sizeof(T) == 2)
         scale(panel.columns, nodes, view.diagonal + s.first * std::size_t{kBlock}, v);
     nodes.template scatter<false>(s.columns, own_place, v);
-    nodes.template scatter<true>(s.row_count, [&](std::size_t i) { return rows[i]; }, v + panel.columns);
+    nodes.template scatter<true>(
+        s.row_count, [&](std::size_t i) { return rows[i]; }, v + panel.columns);
 }
 
 template <class T, class N, class S>
@@ -276,7 +283,8 @@ KNEAD_INLINE void backward(const FactorView& view, const FactorView::Supernode& 
     const auto own_place = [&](std::size_t i) { return s.first + i; };
     const std::uint32_t* rows = view.rows + s.rows_begin;
     nodes.gather(s.columns, own_place, u);
-    nodes.gather(s.row_count, [&](std::size_t i) { return rows[i]; }, u + panel.columns);
+    nodes.gather(
+        s.row_count, [&](std::size_t i) { return rows[i]; }, u + panel.columns);
     for (int k = 0; k < kRhs; ++k)
         for (std::size_t i = panel.rows; i < panel.tiles * kLanes<S>; ++i)
             u[k * nodes.own_stride + i] = 0;
@@ -287,8 +295,7 @@ KNEAD_INLINE void backward(const FactorView& view, const FactorView::Supernode& 
             with_width<kMax, kBlock>(width, [&](auto w) {
                 constexpr int kWidth = decltype(w)::value;
                 strip_transposed_times<kWidth, kRhs>(strip, kStored<kWidth, T>, panel.tiles - tile, from,
-                                                                 nodes.own_stride, x + column,
-                                                                 nodes.own_stride);
+                                                     nodes.own_stride, x + column, nodes.own_stride);
             });
         } else {  // as many columns at a time as there are registers for
             const std::size_t stride = sizeof(T) == 2 ? (width + 1) / 2 * 2 : width;
@@ -541,8 +548,9 @@ bool store_strip(FactorStorage storage, std::size_t rows, std::size_t tiles, std
 
 constexpr FactorKernels factor_kernels() {
     using namespace panels;
-    return {KNEAD_SIMD_BYTES, kStripBlocks, kStripScalar, solve_stored<1>, solve_stored<1>,
-            solve_stored<3>,  solve_stored<3>,   subtract_columns, subtract_product, factor_block, store_strip};
+    return {KNEAD_SIMD_BYTES, kStripBlocks,    kStripScalar,    solve_stored<1>,
+            solve_stored<1>,  solve_stored<3>, solve_stored<3>, subtract_columns,
+            subtract_product, factor_block,    store_strip};
 }
 
 }  // namespace

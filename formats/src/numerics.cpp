@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "knead/formats/numerics.h"
+
+#include <array>
+#include <charconv>
+
+namespace knead {
+namespace {
+
+constexpr std::array<const char*, 2> kPrecisions{"float32", "float64"};
+constexpr std::array<const char*, 3> kPreconditioners{"factor", "laplacian", "block_jacobi"};
+constexpr std::array<const char*, 3> kStorages{"half", "float32", "float64"};
+constexpr std::array<const char*, 5> kReasons{"low_contrast", "high_contrast", "nearly_incompressible",
+                                              "few_tetrahedra", "many_tetrahedra"};
+
+/// Four digits are enough for people; independent of the locale.
+std::string short_number(double number) {
+    char buffer[32];
+    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::general, 4).ptr};
+}
+
+const char* words(NumericsReason reason) {
+    static constexpr std::array<const char*, 5> kWords{
+        "low contrast", "high contrast", "nearly incompressible", "few tetrahedra", "many tetrahedra"};
+    return kWords[static_cast<std::size_t>(reason)];
+}
+
+}  // namespace
+
+const char* to_string(Precision precision) noexcept {
+    return kPrecisions[static_cast<std::size_t>(precision)];
+}
+
+const char* to_string(Preconditioner preconditioner) noexcept {
+    return kPreconditioners[static_cast<std::size_t>(preconditioner)];
+}
+
+const char* to_string(FactorStorage storage) noexcept {
+    return kStorages[static_cast<std::size_t>(storage)];
+}
+
+const char* to_string(NumericsReason reason) noexcept {
+    return kReasons[static_cast<std::size_t>(reason)];
+}
+
+std::string to_text(const Numerics& numerics) {
+    static constexpr std::array<const char*, 3> kBy{"the factor of the rest state",
+                                                    "the factor of the scalar Laplacian", "block Jacobi"};
+    std::string text = "contrast " + short_number(numerics.contrast) + ", Poisson's ratio up to " +
+                       short_number(numerics.max_poissons_ratio) + ", " +
+                       std::to_string(numerics.tetrahedra) + " tetrahedra: solved in " +
+                       to_string(numerics.arithmetic) + " (" + words(numerics.arithmetic_reason) +
+                       "), preconditioned by " + kBy[static_cast<std::size_t>(numerics.preconditioner)] +
+                       " (" + words(numerics.preconditioner_reason) + ")";
+    if (numerics.preconditioner == Preconditioner::block_jacobi) return text;
+    return text + " kept in " + to_string(numerics.factor_storage) + " (" + words(numerics.storage_reason) +
+           ")";
+}
+
+}  // namespace knead

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "knead/formats/numerics.h"
+
+#include <gtest/gtest.h>
+
+#include "samples.h"
+
+namespace knead::test {
+namespace {
+
+/// An asset with `tetrahedra` copies of one element: the choice looks at nothing but their number and values.
+Asset asset_of(std::size_t tetrahedra, double contrast, double poissons_ratio) {
+    Asset asset = sample_asset();
+    asset.palette = {{1000, 0.1, 1000}, {1000 * contrast, poissons_ratio, 1000}};
+    asset.tetrahedra.assign(tetrahedra, asset.tetrahedra[0]);
+    asset.palette_index.assign(tetrahedra, 0);
+    asset.palette_index.back() = 1;
+    return asset;
+}
+
+struct Case {
+    std::size_t tetrahedra;
+    double contrast;
+    double poissons_ratio;
+    Precision arithmetic;
+    Preconditioner preconditioner;
+    FactorStorage storage;
+};
+
+// One row on each side of every limit, written from the table of the design, not from the constants.
+TEST(Choice_of_numerics, Changes_exactly_at_its_limits) {
+    using P = Precision;
+    using C = Preconditioner;
+    using S = FactorStorage;
+    const Case cases[] = {
+        {1296, 1, 0.3, P::float32, C::factor, S::half},
+        {1296, 100, 0.45, P::float32, C::factor, S::half},
+        {1296, 101, 0.45, P::float32, C::factor, S::float32},
+        {1296, 100, 0.451, P::float32, C::factor, S::float32},
+        {1296, 1e4, 0.3, P::float32, C::factor, S::float32},
+        {1296, 1.001e4, 0.3, P::float64, C::factor, S::float32},
+        {1296, 1e7, 0.3, P::float64, C::factor, S::float32},
+        {1296, 1.001e7, 0.49, P::float64, C::factor, S::float64},
+        {16000, 10, 0.3, P::float32, C::factor, S::half},
+        {16001, 10, 0.3, P::float32, C::laplacian, S::half},
+        {16001, 10, 0.449, P::float32, C::laplacian, S::half},
+        {16001, 10, 0.45, P::float32, C::block_jacobi, S::half},
+        {16001, 1e3, 0.3, P::float32, C::laplacian, S::float32},
+        {16001, 1.001e3, 0.3, P::float32, C::block_jacobi, S::float32},
+        {48000, 1e6, 0.49, P::float64, C::block_jacobi, S::float32},
+    };
+    for (const Case& c : cases) {
+        const Numerics chosen = choose_numerics(asset_of(c.tetrahedra, c.contrast, c.poissons_ratio));
+        const std::string what = to_text(chosen);
+        EXPECT_EQ(chosen.arithmetic, c.arithmetic) << what;
+        EXPECT_EQ(chosen.preconditioner, c.preconditioner) << what;
+        EXPECT_EQ(chosen.factor_storage, c.storage) << what;
+        EXPECT_DOUBLE_EQ(chosen.contrast, c.contrast) << what;
+        EXPECT_EQ(chosen.tetrahedra, c.tetrahedra) << what;
+    }
+}
+
+TEST(Choice_of_numerics, Does_not_look_at_palette_entries_that_no_tetrahedron_uses) {
+    Asset asset = asset_of(6, 10, 0.3);
+    asset.palette.push_back({1e12, 0.499, 1000});
+    const Numerics chosen = choose_numerics(asset);
+    EXPECT_DOUBLE_EQ(chosen.contrast, 10);
+    EXPECT_DOUBLE_EQ(chosen.max_poissons_ratio, 0.3);
+}
+
+TEST(Choice_of_numerics, Says_why_in_one_sentence) {
+    EXPECT_EQ(to_text(choose_numerics(asset_of(1296, 10, 0.3))),
+              "contrast 10, Poisson's ratio up to 0.3, 1296 tetrahedra: solved in float32 (low contrast), "
+              "preconditioned by the factor of the rest state (few tetrahedra) kept in half (low contrast)");
+    EXPECT_EQ(to_text(choose_numerics(asset_of(20000, 10, 0.46))),
+              "contrast 10, Poisson's ratio up to 0.46, 20000 tetrahedra: solved in float32 (low contrast), "
+              "preconditioned by block Jacobi (nearly incompressible)");
+    const Numerics hard = choose_numerics(asset_of(20000, 1e8, 0.3));
+    EXPECT_STREQ(to_string(hard.arithmetic), "float64");
+    EXPECT_STREQ(to_string(hard.factor_storage), "float64");
+    EXPECT_STREQ(to_string(hard.preconditioner), "block_jacobi");
+    EXPECT_STREQ(to_string(hard.preconditioner_reason), "high_contrast");
+    EXPECT_STREQ(to_string(choose_numerics(asset_of(20000, 10, 0.3)).preconditioner_reason),
+                 "many_tetrahedra");
+}
+
+}  // namespace
+}  // namespace knead::test

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reference/contact_problem.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <optional>
+
+#include "common/error.h"
+#include "reference/contact_newton.h"
+#include "reference/contact_set.h"
+#include "reference/prescribed_unknowns.h"
+#include "reference/step_model.h"
+
+namespace knead::tools {
+
+struct ContactProblem::Impl {
+    ElasticBody body;
+    Eigen::VectorXd mass_kg;  // [3 nodes]
+    Eigen::VectorXd gravity_m_per_s2;
+    double damping_per_s;
+    std::optional<FreeSystem> system;  // of the last set of held unknowns
+
+    FreeSystem& system_for(const std::vector<bool>& is_prescribed) {
+        if (!system || system->is_prescribed() != is_prescribed) system.emplace(body, is_prescribed);
+        return *system;
+    }
+    [[nodiscard]] Objective step_objective(const Eigen::VectorXd& x0, const Eigen::VectorXd& v0,
+                                           double dt_s) const {
+        const double rate = 1 / (dt_s * dt_s) + damping_per_s / dt_s;
+        Objective result;
+        result.body = &body;
+        result.weight_n_per_m = mass_kg * rate;
+        result.anchor_m = x0 + (v0 / dt_s + gravity_m_per_s2) / rate;
+        return result;
+    }
+    ContactSolution solve(StepModel& model, const PrescribedMotion& held, const PrescribedUnknowns& unknowns,
+                          const std::vector<ContactTool>& tools, ContactSet& set, const ContactLimits& limits,
+                          Eigen::VectorXd& positions);
+};
+
+namespace {
+
+Point to_point(const Eigen::Vector3d& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+void check_limits(const ContactLimits& limits) {
+    if (!(limits.relative_residual > 0) || !(limits.relative_gap > 0) || limits.max_iterations < 1 ||
+        limits.max_catch_rounds < 1)
+        fail_input("contact limits: all of them must be positive");
+}
+
+ToolReaction reaction_of(std::size_t tool, std::size_t node_count, const ContactSet& set,
+                         const Eigen::VectorXd& gradient_n, const Eigen::VectorXd& positions_m) {
+    ToolReaction reaction;
+    reaction.touches.resize(node_count);
+    reaction.forces_n.assign(node_count, Point{0, 0, 0});
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    Eigen::Vector3d torque = Eigen::Vector3d::Zero();
+    for (const Candidate& candidate : set.candidates()) {
+        if (candidate.tool != tool) continue;
+        reaction.touches[candidate.slot] = set.touch(candidate, positions_m);
+        if (!candidate.touching) continue;
+        const Eigen::Index node = first_unknown(candidate.node);
+        const Eigen::Vector3d pushes = -gradient_n.segment<3>(node);
+        const Eigen::Vector3d arm = positions_m.segment<3>(node) - set.surfaces()[tool].origin_m();
+        reaction.forces_n[candidate.slot] = to_point(pushes);
+        force += pushes;
+        torque += arm.cross(pushes);
+    }
+    reaction.force_n = to_point(force);
+    reaction.torque_n_m = to_point(torque);
+    return reaction;
+}
+
+void check_step(double dt_s) {
+    if (!std::isfinite(dt_s) || dt_s <= 0)
+        fail_input(fmt::format("time step is {} s, not finite and > 0", dt_s));
+}
+
+}  // namespace
+
+ContactSolution ContactProblem::Impl::solve(StepModel& model, const PrescribedMotion& held,
+                                            const PrescribedUnknowns& unknowns,
+                                            const std::vector<ContactTool>& tools, ContactSet& set,
+                                            const ContactLimits& limits, Eigen::VectorXd& positions) {
+    ContactSolution solution;
+    FreeSystem& free_system = system_for(unknowns.is_prescribed);
+    const ContactEffort effort =
+        solve_contact(model, free_system, unknowns.target_m, limits, set, positions, solution.check);
+    const Eigen::VectorXd gradient = model.gradient_n(positions);
+    for (std::size_t tool = 0; tool < tools.size(); ++tool)
+        solution.tools.push_back(reaction_of(tool, tools[tool].nodes.size(), set, gradient, positions));
+    for (const Candidate& candidate : set.candidates()) {
+        solution.touching += candidate.touching ? 1 : 0;
+        solution.let_slide += candidate.touching && candidate.let_slide ? 1 : 0;
+    }
+    solution.held_reactions_n = reactions(held, gradient);
+    solution.energy_j = model.elastic_j(positions);
+    solution.newton_iterations = effort.newton_iterations;
+    solution.law_iterations = effort.law_iterations;
+    solution.law_fallbacks = effort.law_fallbacks;
+    solution.state.positions_m = to_points(positions);
+    return solution;
+}
+
+ContactTool contact_tool(const ToolSet& set, const std::vector<Point>& rest_m) {
+    ContactTool tool;
+    tool.shape = set.shape;
+    tool.law = set.contact;
+    tool.radius_m = set.radius_m;
+    tool.half_length_m = set.half_length_m;
+    tool.half_extents_m = set.half_extents_m;
+    tool.friction_coefficient = set.friction_coefficient;
+    tool.pose = tool.pose_before = {set.rest_position_m, set.rest_orientation_wxyz};
+    tool.nodes = set.nodes;
+    tool.before.resize(set.nodes.size());
+    const Eigen::Vector3d origin(set.rest_position_m.data());
+    const auto& q = set.rest_orientation_wxyz;
+    const Eigen::Quaterniond turn = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+    const bool bonded = set.contact == ToolContact::bonded;
+    std::optional<ToolSurface> surface;
+    if (!bonded) surface.emplace(tool);
+    for (std::size_t k = 0; k < set.nodes.size(); ++k) {
+        if (set.nodes[k] >= rest_m.size())
+            fail_input(
+                fmt::format("contact tool: node {} of {} does not exist", set.nodes[k], rest_m.size()));
+        const Eigen::Vector3d local =
+            turn.conjugate() * (Eigen::Vector3d(rest_m[set.nodes[k]].data()) - origin);
+        if (bonded) {
+            tool.before[k] = {TouchMode::sticking, to_point(local)};
+        } else if (surface->beside(local) && surface->nearest(local).gap_m < 0) {
+            tool.before[k].mode = TouchMode::beside;
+        }
+    }
+    return tool;
+}
+
+ContactProblem::ContactProblem(const TetMesh& mesh, const Material& material, const BodyForces& forces)
+    : impl_(std::make_unique<Impl>(Impl{ElasticBody(mesh, material), {}, {}, forces.damping_per_s, {}})) {
+    if (!std::isfinite(forces.damping_per_s) || forces.damping_per_s < 0)
+        fail_input(fmt::format("damping is {} per second, not finite and >= 0", forces.damping_per_s));
+    const std::size_t nodes = impl_->body.node_count();
+    impl_->mass_kg = impl_->body.lumped_mass_kg().transpose().replicate(3, 1).reshaped();
+    impl_->gravity_m_per_s2 =
+        to_unknowns(std::vector<Point>(nodes, forces.gravity_m_per_s2), nodes, "gravity");
+}
+
+ContactProblem::ContactProblem(ContactProblem&&) noexcept = default;
+ContactProblem& ContactProblem::operator=(ContactProblem&&) noexcept = default;
+ContactProblem::~ContactProblem() = default;
+
+MotionState ContactProblem::rest() const {
+    return {to_points(impl_->body.rest_positions_m()),
+            std::vector<Point>(impl_->body.node_count(), Point{0, 0, 0})};
+}
+
+ContactSolution ContactProblem::equilibrium(const PrescribedMotion& held,
+                                            const std::vector<ContactTool>& tools,
+                                            const std::vector<Point>& start_m, const ContactLimits& limits) {
+    check_limits(limits);
+    const ElasticBody& body = impl_->body;
+    const PrescribedUnknowns unknowns = spread(held, body.rest_positions_m());
+    Eigen::VectorXd positions = start_m.empty() ? body.rest_positions_m()
+                                                : to_unknowns(start_m, body.node_count(), "start positions");
+    Objective objective;
+    objective.body = &body;
+    Eigen::VectorXd load;
+    if (!impl_->gravity_m_per_s2.isZero(0)) load = impl_->mass_kg.cwiseProduct(impl_->gravity_m_per_s2);
+    StepModel model(objective, load, std::nullopt);
+    ContactSet set(tools, unknowns.is_prescribed, positions, positions, false);
+    ContactSolution solution = impl_->solve(model, held, unknowns, tools, set, limits, positions);
+    solution.state.velocities_m_per_s.assign(body.node_count(), Point{0, 0, 0});
+    return solution;
+}
+
+ContactSolution ContactProblem::step(const MotionState& from, const PrescribedMotion& held,
+                                     const std::vector<ContactTool>& tools, double dt_s,
+                                     const ContactLimits& limits) {
+    check_limits(limits);
+    check_step(dt_s);
+    const ElasticBody& body = impl_->body;
+    const PrescribedUnknowns unknowns = spread(held, body.rest_positions_m());
+    const Eigen::VectorXd x0 = to_unknowns(from.positions_m, body.node_count(), "positions");
+    const Eigen::VectorXd v0 = to_unknowns(from.velocities_m_per_s, body.node_count(), "velocities");
+    StepModel model(impl_->step_objective(x0, v0, dt_s), {}, std::nullopt);
+    ContactSet set(tools, unknowns.is_prescribed, x0, x0 + dt_s * v0, false);
+    Eigen::VectorXd positions = x0;
+    ContactSolution solution = impl_->solve(model, held, unknowns, tools, set, limits, positions);
+    solution.state.velocities_m_per_s = to_points((positions - x0) / dt_s);
+    return solution;
+}
+
+ContactSolution ContactProblem::linearised_step(const MotionState& from, const PrescribedMotion& held,
+                                                const std::vector<ContactTool>& tools, double dt_s,
+                                                const LinearisedAt& at, const ContactLimits& limits) {
+    check_limits(limits);
+    check_step(dt_s);
+    const ElasticBody& body = impl_->body;
+    const PrescribedUnknowns unknowns = spread(held, body.rest_positions_m());
+    const Eigen::VectorXd x0 = to_unknowns(from.positions_m, body.node_count(), "positions");
+    const Eigen::VectorXd v0 = to_unknowns(from.velocities_m_per_s, body.node_count(), "velocities");
+    const Eigen::VectorXd predicted = x0 + dt_s * v0;
+    ContactSet set(tools, unknowns.is_prescribed, x0, predicted, true);
+    Eigen::VectorXd point = predicted;
+    for (Eigen::Index k = 0; k < point.size(); ++k)
+        if (unknowns.is_prescribed[static_cast<std::size_t>(k)]) point[k] = unknowns.target_m[k];
+    if (at.stuck_at_target)
+        for (const Candidate& candidate : set.candidates())
+            if (candidate.touching && candidate.law.friction > 0)
+                point.segment<3>(first_unknown(candidate.node)) = candidate.anchor_m;
+    if (!at.positions_m.empty())
+        point = to_unknowns(at.positions_m, body.node_count(), "linearisation point");
+    StepModel model(impl_->step_objective(x0, v0, dt_s), {}, point);
+    Eigen::VectorXd positions = point;
+    ContactSolution solution = impl_->solve(model, held, unknowns, tools, set, limits, positions);
+    solution.state.velocities_m_per_s = to_points((positions - x0) / dt_s);
+    return solution;
+}
+
+}  // namespace knead::tools
