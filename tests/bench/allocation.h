@@ -5,6 +5,13 @@
 
 namespace knead::bench {
 
+/// Sanitizers need malloc for themselves: nothing is counted under them.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kAllocationsAreCounted = false;
+#else
+inline constexpr bool kAllocationsAreCounted = true;
+#endif
+
 /// What the process has asked of malloc and its relatives (operator new included) since it started.
 struct AllocationCount {
     std::uint64_t calls = 0;

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kFloat = 4;
 constexpr double kIndex = 4;
+/// A number of a factor: two bytes are enough for a preconditioner (the runtime stores 16-bit fixed point).
+constexpr double kFactorNumber = 2;
 /// What a tetrahedron is: four indices, nine numbers of the inverse rest edges, mu and lambda times volume.
 constexpr double kElementBytes = 4 * kIndex + 11 * kFloat;
 constexpr double kRotationBytes = 4 * kFloat;  // a quaternion
@@ -84,12 +86,13 @@ Work product_work(const StepSizes& s) {
 
 Work factor_work(const StepSizes& s) {
     // Every block once on the way down and once on the way up; the inverted diagonal blocks in between.
-    return {2 * s.factor_blocks * 9 * kFloat + s.unknown_nodes * (9 * kFloat + 2 * kVectorBytes),
-            2 * s.factor_blocks * 18 + s.unknown_nodes * 18};
+    return {
+        2 * s.factor_blocks * 9 * kFactorNumber + s.unknown_nodes * (9 * kFactorNumber + 2 * kVectorBytes),
+        2 * s.factor_blocks * 18 + s.unknown_nodes * 18};
 }
 
 Work scalar_factor_work(const StepSizes& s) {
-    return {2 * s.factor_blocks * kFloat + s.unknown_nodes * (kFloat + 2 * kVectorBytes),
+    return {2 * s.factor_blocks * kFactorNumber + s.unknown_nodes * (kFactorNumber + 2 * kVectorBytes),
             2 * s.factor_blocks * 6 + s.unknown_nodes * 3};
 }
 

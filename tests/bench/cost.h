@@ -8,7 +8,8 @@
 
 namespace knead::bench {
 
-/// What a part of a step must read and compute, single precision, however well it is written.
+/// What a part of a step must read and compute in single precision (factors stored in 16 bits), however well
+/// it is written.
 struct Work {
     double bytes = 0;  ///< read or written once each
     double flops = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // libFuzzer target over all readers. Build with clang and -DKNEAD_BUILD_FUZZERS=ON; run with a folder of
-// valid files as the corpus: fuzz_readers CORPUS -max_len=65536 -rss_limit_mb=4096 -detect_leaks=0
+// valid files as the corpus (tests/golden/files holds one of each kind):
+// fuzz_readers CORPUS -max_len=65536 -rss_limit_mb=4096 -detect_leaks=0
 // (HDF5 1.10 leaks a little when it refuses a damaged file).
 #include <fcntl.h>
 #include <unistd.h>

@@ -18,6 +18,11 @@ constexpr Real kWorkPerSecond = 1e9;
 constexpr std::uint32_t kRotationShares = 32;
 /// Shares of the blocks of block Jacobi that are made anew in each step for another dt.
 constexpr std::uint32_t kBlockShares = 16;
+/// Free nodes that tools may touch, up to which the correction for contact is kept: its table grows with the
+/// square, and takes 9 MB here.
+constexpr std::size_t kMostTouchable = 512;
+/// Nodes that the correction takes in at a time; others are projected until their turn comes.
+constexpr std::size_t kInsertions = 4;
 /// Beyond this contrast stiff matter must be followed at once: a lag of its rotation weighs too much.
 constexpr double kLaggingContrast = 1e3;
 
@@ -57,7 +62,8 @@ std::vector<Real> node_stiffnesses(const Model& model) {
 
 template <class S>
 Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, const Numerics& numerics,
-                                  SimdTarget target, Real dt_s)
+                                  SimdTarget target, Real dt_s,
+                                  const std::vector<std::uint32_t>& touchable)
     : model_(model),
       fields_(kernels(target).field<S>()),
       masses_(model),
@@ -68,7 +74,9 @@ Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, con
       matrix_(model, numerics.preconditioner == knead::Preconditioner::laplacian ? RestMatrix::Kind::laplacian
                                                                               : RestMatrix::Kind::elastic),
       packed_float_(3 * model.free_count),
+      solved_float_(3 * model.free_count),
       packed_double_(3 * model.free_count),
+      solved_double_(3 * model.free_count),
       node_stiffness_(node_stiffnesses(model)),
       held_stiffness_(model.bonded.size(), 0),
       tool_inverse_(model.bonded.size(), Mat::Zero()) {
@@ -83,6 +91,14 @@ Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, con
     if (!factor_ && turns()) {
         blocks_.resize(model.free_count);
         make_blocks(0, 1);
+    }
+    own_inverse_.assign(model.bonded.size(), Mat::Zero());
+    held_.resize(touchable.size());
+    if (factor_ && turns() && !touchable.empty() && touchable.size() <= kMostTouchable) {
+        correction_ = std::make_unique<ContactCorrection>(*factor_, touchable, model.bonded.size(),
+                                                          ContactCorrection::kColumnBytes, target);
+        correction_->build();
+        correction_scratch_ = std::make_unique<ContactCorrection::Scratch>(*correction_);
     }
     find_borders(elements);
     find_responses();
@@ -169,6 +185,8 @@ void Preconditioner<S>::find_responses() noexcept {
 template <class S>
 void Preconditioner<S>::reset() noexcept {
     rotations_.reset();
+    if (correction_) correction_->clear();
+    corrects_ = false;
     steps_wanted_ = 0;
     wanted_dt_s_ = 0;
     if (dt_s_ == expected_dt_s_ && !working_) return;
@@ -176,8 +194,11 @@ void Preconditioner<S>::reset() noexcept {
     working_ = false;
     dt_s_ = expected_dt_s_;
     matrix_.set(dt_s_, 1 + model_.damping_per_s * dt_s_);
-    if (factor_) (void)factor_->factorise(matrix_.values());
-    else make_blocks(0, 1);
+    if (factor_)
+        (void)factor_->factorise(matrix_.values());
+    else
+        make_blocks(0, 1);
+    if (correction_) correction_->build();
     find_responses();
 }
 
@@ -204,18 +225,28 @@ void Preconditioner<S>::follow(Real dt_s) noexcept {
         working_ = true;
         return;
     }
-    if (factor_) {
-        const Progress progress = factor_->advance(static_cast<std::uint64_t>(kWorkPerSecond * dt_s));
-        if (progress == Progress::working) return;
-        working_ = false;
-        steps_wanted_ = 0;
-        if (progress == Progress::refused) return;
-    } else {
+    const auto work = static_cast<std::uint64_t>(kWorkPerSecond * dt_s);
+    if (!factor_) {
         make_blocks(next_block_++, kBlockShares);
         if (next_block_ < kBlockShares) return;
-        working_ = false;
-        steps_wanted_ = 0;
+    } else if (!factored_) {
+        const Progress progress = correction_ ? factor_->advance_staged(work) : factor_->advance(work);
+        if (progress == Progress::working) return;
+        if (progress == Progress::refused) {
+            working_ = false;
+            return;
+        }
+        factored_ = true;
+        if (correction_) {
+            correction_->begin();
+            return;
+        }
+    } else {
+        if (correction_->advance(work) == Progress::working) return;
+        correction_->adopt();
     }
+    working_ = factored_ = false;
+    steps_wanted_ = 0;
     dt_s_ = wanted_dt_s_;
     find_responses();
 }
@@ -238,11 +269,41 @@ void Preconditioner<S>::hold(const System<S>& system) noexcept {
     for (std::size_t k = 0; k < system.tools.size(); ++k) {
         if (system.tools[k].moves) tool_inverse_[k] = Mat(tool_inverse_[k].inverse());
     }
+    correct_for(system);
+}
+
+/// Lets the correction follow the constraints. A tool that moves and is bonded has a border of its own, which
+/// the correction does not know: then held nodes of other tools are left to the projection.
+template <class S>
+void Preconditioner<S>::correct_for(const System<S>& system) noexcept {
+    corrects_ = correction_ != nullptr && !system.constraints.empty();
+    for (std::size_t k = 0; k < system.tools.size(); ++k) {
+        const bool moves = system.tools[k].moves;
+        own_inverse_[k] = moves ? Mat(Mat::Identity() / system.tool_diagonal_kg(k)) : Mat(Mat::Zero());
+        if (moves && borders_[k].force[0].size() > 0) corrects_ = false;
+    }
+    if (!corrects_) {
+        if (correction_) correction_->clear();
+        return;
+    }
+    std::size_t count = 0;
+    for (const Constraint& c : system.constraints) {
+        if (count < held_.size()) held_[count++] = {c.node, c.tool, c.held, rotations_.rotation(c.node)};
+    }
+    (void)correction_->update(held_.data(), count, own_inverse_.data(), kInsertions);
 }
 
 template <class S>
 void Preconditioner<S>::apply(const System<S>& system, const Unknowns<S>& residual,
                               Unknowns<S>& out) const noexcept {
+    if (corrects_) {
+        if (in_double())
+            solve_corrected(packed_double_, solved_double_, residual, out);
+        else
+            solve_corrected(packed_float_, solved_float_, residual, out);
+        system.expand(out);
+        return;
+    }
     solve(residual.nodes, out.nodes);
     const std::size_t free = run_of(model_.free_count);
     for (std::size_t k = 0; k < system.tools.size(); ++k) {
@@ -286,8 +347,18 @@ void Preconditioner<S>::solve_with(AlignedArray<T>& packed, const NodeField<S>& 
 }
 
 template <class S>
+template <class T>
+void Preconditioner<S>::solve_corrected(AlignedArray<T>& packed, AlignedArray<T>& solved,
+                                        const Unknowns<S>& residual, Unknowns<S>& out) const noexcept {
+    rotations_.turn_back(residual.nodes, packed.data());
+    correction_->apply(packed.data(), residual.tools.data(), solved.data(), out.tools.data(),
+                       *correction_scratch_);
+    rotations_.turn(solved.data(), out.nodes);
+}
+
+template <class S>
 void Preconditioner<S>::solve(const NodeField<S>& residual, NodeField<S>& out) const noexcept {
-    if (factor_ && factor_->storage() == FactorStorage::double_precision) {
+    if (factor_ && in_double()) {
         solve_with(packed_double_, residual, out);
     } else if (factor_) {
         solve_with(packed_float_, residual, out);

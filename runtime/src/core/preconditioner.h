@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "core/factor/supernodal_factor.h"
+#include "core/factor/contact_correction.h"
 #include "core/node_rotations.h"
 #include "core/system.h"
 #include "knead/formats/numerics.h"
@@ -19,9 +19,9 @@ namespace knead::core {
 template <class S>
 class Preconditioner {
   public:
-    /// @param elements not yet linearised; left at rest
+    /// @param elements not yet linearised; left at rest  @param touchable free nodes that constraints may hold
     Preconditioner(const Model& model, Elements<S>& elements, const Numerics& numerics, SimdTarget target,
-                   Real dt_s);
+                   Real dt_s, const std::vector<std::uint32_t>& touchable);
 
     /// As just constructed. Makes the numbers anew if they follow another dt.
     void reset() noexcept;
@@ -52,6 +52,7 @@ class Preconditioner {
         Real sensitivity = 0;            ///< largest eigenvalue of following_kg
     };
 
+    void correct_for(const System<S>& system) noexcept;
     bool make_factor(FactorStorage storage, SimdTarget target);
     void make_blocks(std::uint32_t first, std::uint32_t stride) noexcept;
     void find_borders(Elements<S>& elements);
@@ -60,6 +61,12 @@ class Preconditioner {
     void solve(const NodeField<S>& residual, NodeField<S>& out) const noexcept;
     template <class T>
     void solve_with(AlignedArray<T>& packed, const NodeField<S>& residual, NodeField<S>& out) const noexcept;
+    template <class T>
+    void solve_corrected(AlignedArray<T>& packed, AlignedArray<T>& solved, const Unknowns<S>& residual,
+                         Unknowns<S>& out) const noexcept;
+    [[nodiscard]] bool in_double() const noexcept {
+        return factor_->storage() == FactorStorage::double_precision;
+    }
     [[nodiscard]] bool turns() const noexcept { return matrix_.kind() == RestMatrix::Kind::elastic; }
 
     const Model& model_;
@@ -73,8 +80,13 @@ class Preconditioner {
     std::unique_ptr<SupernodalFactor> factor_;  ///< none: block Jacobi
     mutable std::unique_ptr<SupernodalFactor::Scratch> scratch_;
     std::vector<std::array<S, 9>> blocks_;  ///< block Jacobi: [free nodes] inverse, row-major
-    mutable AlignedArray<float> packed_float_;
-    mutable AlignedArray<double> packed_double_;
+    std::unique_ptr<ContactCorrection> correction_;  ///< none: held nodes are left to the projection
+    mutable std::unique_ptr<ContactCorrection::Scratch> correction_scratch_;
+    std::vector<HeldNode> held_;
+    std::vector<Mat> own_inverse_;  ///< [tools] of moving ones without their nodes, 1/kg; else zero
+    bool corrects_ = false;         ///< for the constraints of now
+    mutable AlignedArray<float> packed_float_, solved_float_;
+    mutable AlignedArray<double> packed_double_, solved_double_;
     std::vector<Border> borders_;         ///< [tools]
     std::vector<Real> node_stiffness_;    ///< [free nodes] bound of the diagonal block, N/m
     std::vector<Real> held_stiffness_;    ///< [tools] of the nodes in the constraints together, N/m
@@ -83,7 +95,8 @@ class Preconditioner {
     // Another dt.
     Real wanted_dt_s_ = 0;
     int steps_wanted_ = 0;
-    bool working_ = false;
+    bool working_ = false;      ///< new numbers are being made
+    bool factored_ = false;     ///< those of the factor are
     std::uint32_t next_block_ = 0;
 };
 

@@ -56,6 +56,21 @@ std::vector<ToolSet> renumbered(const Asset& asset, const std::vector<std::size_
     return result;
 }
 
+/// The free nodes that unilateral tools may hold.
+std::vector<std::uint32_t> touchable(const Asset& asset, const std::vector<std::size_t>& tools,
+                                     const Model& model) {
+    std::vector<std::uint32_t> result;
+    for (const std::size_t k : tools) {
+        if (asset.tools[k].contact == ToolContact::bonded) continue;
+        for (const std::uint32_t node : asset.tools[k].nodes) {
+            if (model.from_asset[node] < model.free_count) result.push_back(model.from_asset[node]);
+        }
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+}
+
 template <class S>
 class TypedStepper final : public Stepper {
   public:
@@ -134,7 +149,8 @@ TypedStepper<S>::TypedStepper(const Asset& asset, const SimulationConfig& config
       masses_(model_),
       elements_(model_, kernels_),
       contact_(renumbered(asset, config.tools, model_), model_, BondedNodes::left_out),
-      preconditioner_(model_, elements_, numerics, target, config.expected_dt_s),
+      preconditioner_(model_, elements_, numerics, target, config.expected_dt_s,
+                      touchable(asset, config.tools, model_)),
       solver_(model_, config.tools.size(), contact_.max_constraints()),
       trusts_preconditioner_(numerics.contrast <= kTrustedContrast &&
                              numerics.max_poissons_ratio <= kTrustedPoissonsRatio &&

@@ -315,6 +315,74 @@ TEST(ContactCorrection, reaction_of_a_sticking_tool_is_the_schur_complement) {
     EXPECT_TRUE(contact.correction.reaction_kg(1).isZero());
 }
 
+/// Iterations of conjugate gradients on `a` without the rows and columns of sticking nodes, to 1e-4 in the
+/// preconditioner's norm.
+template <class Apply>
+int iterations(const Eigen::MatrixXd& a, const std::vector<HeldNode>& held, const Apply& apply) {
+    const auto project = [&](Eigen::VectorXd v) {
+        for (const HeldNode& h : held)
+            v.segment<3>(3 * h.node).setZero();
+        return v;
+    };
+    Eigen::VectorXd r = project(random_vector(static_cast<std::size_t>(a.rows()), 5));
+    Eigen::VectorXd z = project(apply(r)), p = z;
+    double rz = r.dot(z);
+    const double enough = 1e-8 * rz;
+    int count = 0;
+    while (rz > enough && count < 1000) {
+        const Eigen::VectorXd ap = project(a * p);
+        r -= rz / p.dot(ap) * ap;
+        z = project(apply(r));
+        const double next = r.dot(z);
+        p = z + next / rz * p;
+        rz = next;
+        ++count;
+    }
+    return count;
+}
+
+TEST(ContactCorrection, costs_no_more_iterations_than_a_factor_made_for_the_set) {
+    for (const auto storage : {FactorStorage::single_precision, FactorStorage::fixed_point_16}) {
+        Contact contact(storage);
+        contact.remake(10 * kDt_s);
+        contact.correction.build();
+        std::vector<HeldNode> held(20);
+        for (std::size_t k = 0; k < held.size(); ++k)
+            held[k].node = contact.touchable[k];
+        take_in(contact, held);
+        // The true matrix: every tetrahedron turned, differently.
+        std::vector<Mat> rotations;
+        for (std::size_t e = 0; e < contact.model.elements.size(); ++e)
+            rotations.push_back(
+                Eigen::AngleAxis<Real>(0.3 * std::sin(0.1 * static_cast<double>(e)), Vec(1, 2, 2) / 3)
+                    .toRotationMatrix());
+        RestMatrix turned(contact.model, RestMatrix::Kind::elastic);
+        turned.rotate(contact.model, rotations.data());
+        turned.set(10 * kDt_s, 1);
+        const Eigen::MatrixXd a = dense(turned);
+        const Eigen::Index n = a.rows();
+        const int corrected = iterations(a, held, [&](const Eigen::VectorXd& r) {
+            Eigen::VectorXd both = Eigen::VectorXd::Zero(contact.size());
+            both.head(n) = r;
+            return Eigen::VectorXd(contact.apply(both).head(n));
+        });
+        Eigen::MatrixXd of_the_set = contact.a;
+        for (const HeldNode& h : held) {
+            of_the_set.middleRows<3>(3 * h.node).setZero();
+            of_the_set.middleCols<3>(3 * h.node).setZero();
+            of_the_set.block<3, 3>(3 * h.node, 3 * h.node).setIdentity();
+        }
+        const auto exact = of_the_set.ldlt();
+        const int made_for_it =
+            iterations(a, held, [&](const Eigen::VectorXd& r) { return Eigen::VectorXd(exact.solve(r)); });
+        const auto free = contact.a.ldlt();
+        const int projected =
+            iterations(a, held, [&](const Eigen::VectorXd& r) { return Eigen::VectorXd(free.solve(r)); });
+        EXPECT_LE(corrected, made_for_it * 1.1);
+        EXPECT_GT(projected, made_for_it * 1.1) << "or the case shows nothing";
+    }
+}
+
 RC_GTEST_PROP(ContactCorrectionProperty, after_any_sequence_of_sets_is_the_constrained_inverse, ()) {
     static Contact contact(FactorStorage::single_precision);
     std::mt19937_64 engine(*rc::gen::arbitrary<std::uint64_t>());

@@ -30,8 +30,8 @@ enum class ToolContact : std::uint8_t {
     coulomb = 3,       ///< unilateral: touches and leaves; slides where friction does not hold it
 };
 
-/// Of a coulomb tool. Measured pairs stay below 4 (rubber on rubber); what is beyond this is a misplaced
-/// point.
+/// Of a coulomb tool. Far above what instruments and soft matter have: what is beyond is a misplaced point,
+/// not a surface.
 inline constexpr double kMaxFrictionCoefficient = 10;
 
 /// Something that touches the object, and the nodes that it can touch.
