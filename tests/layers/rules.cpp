@@ -60,6 +60,11 @@ bool names_threads(const Include& include) {
     return include.angle && kThreads.count(include.name) > 0;
 }
 
+/// What compilers bring for a processor's own instructions.
+bool names_intrinsics(const Include& include) {
+    return include.angle && (include.name == "immintrin.h" || include.name == "xmmintrin.h");
+}
+
 /// "h5.h" next to the file, or a path from the src folder of its layer.
 bool names_own_source(const SourceFile& file, const Include& include, const std::set<std::string>& paths,
                       const std::string& source_root) {
@@ -98,6 +103,7 @@ Complaint runtime_rule(const SourceFile& file, const Include& include, const std
     if (names_eigen(include))
         return is_public ? Complaint("public headers must not show Eigen") : Complaint();
     if (!is_public && names_own_source(file, include, paths, "runtime/src/")) return std::nullopt;
+    if (in(file, "runtime/src/core/") && names_intrinsics(include)) return std::nullopt;
     return "the runtime may include formats (read side), itself, the standard library and (in src) Eigen "
            "only";
 }

@@ -39,17 +39,17 @@ void FrontFactoriser::sort_entries(const MatrixPattern& pattern) {
     const std::uint32_t n = pattern.node_count;
     const auto& place = symbolic_.place_of;
     entry_begin_.assign(n + 1, 0);
+    // A neighbour that is eliminated later is an ancestor in the tree, and stays behind in every postorder:
+    // the lower triangle is the lower triangle of the places too.
     for (std::uint32_t j = 0; j < n; ++j)
-        for (std::uint32_t k = pattern.column_begin[j]; k < pattern.column_begin[j + 1]; ++k)
-            ++entry_begin_[std::min(place[j], place[pattern.row_nodes[k]]) + 1];
+        entry_begin_[place[j] + 1] = pattern.column_begin[j + 1] - pattern.column_begin[j];
     std::partial_sum(entry_begin_.begin(), entry_begin_.end(), entry_begin_.begin());
     entries_.resize(entry_begin_[n]);
-    std::vector<std::uint32_t> next(entry_begin_.begin(), entry_begin_.end());
-    for (std::uint32_t j = 0; j < n; ++j)
-        for (std::uint32_t k = pattern.column_begin[j]; k < pattern.column_begin[j + 1]; ++k) {
-            const std::uint32_t a = place[j], b = place[pattern.row_nodes[k]];
-            entries_[next[std::min(a, b)]++] = {std::max(a, b), k, b < a};
-        }
+    for (std::uint32_t j = 0; j < n; ++j) {
+        std::uint32_t next = entry_begin_[place[j]];
+        for (std::uint32_t k = pattern.column_begin[j]; k < pattern.column_begin[j + 1]; ++k)
+            entries_[next++] = {place[pattern.row_nodes[k]], k};
+    }
 }
 
 /// The stack when every supernode is open: what its children left, then its front; what remains of the front
@@ -181,7 +181,7 @@ std::uint64_t FrontFactoriser::add_matrix() noexcept {
             double* to = front_.data + at_ * block * front_.ld + local_[entry.row] * block;
             for (std::size_t c = 0; c < block; ++c)
                 for (std::size_t r = 0; r < block; ++r)
-                    to[c * front_.ld + r] = entry.transposed ? from[r * block + c] : from[c * block + r];
+                    to[c * front_.ld + r] = from[c * block + r];
         }
         work += (entry_begin_[place + 1] - entry_begin_[place]) * block * block;
     }

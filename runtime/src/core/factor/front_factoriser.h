@@ -45,7 +45,6 @@ class FrontFactoriser {
     struct Entry {
         std::uint32_t row;
         std::uint32_t entry;
-        bool transposed;
     };
     /// The front of the supernode under way.
     struct Front {
