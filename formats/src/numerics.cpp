@@ -9,9 +9,9 @@ namespace {
 
 constexpr std::array<const char*, 2> kPrecisions{"float32", "float64"};
 constexpr std::array<const char*, 3> kPreconditioners{"factor", "laplacian", "block_jacobi"};
-constexpr std::array<const char*, 3> kStorages{"half", "float32", "float64"};
-constexpr std::array<const char*, 5> kReasons{"low_contrast", "high_contrast", "nearly_incompressible",
-                                              "few_tetrahedra", "many_tetrahedra"};
+constexpr std::array<const char*, 3> kStorages{"fixed16", "float32", "float64"};
+constexpr std::array<const char*, 6> kReasons{"low_contrast",   "high_contrast",   "nearly_incompressible",
+                                              "few_tetrahedra", "many_tetrahedra", "stiff_path"};
 
 /// Four digits are enough for people; independent of the locale.
 std::string short_number(double number) {
@@ -20,8 +20,9 @@ std::string short_number(double number) {
 }
 
 const char* words(NumericsReason reason) {
-    static constexpr std::array<const char*, 5> kWords{
-        "low contrast", "high contrast", "nearly incompressible", "few tetrahedra", "many tetrahedra"};
+    static constexpr std::array<const char*, 6> kWords{"low contrast",          "high contrast",
+                                                       "nearly incompressible", "few tetrahedra",
+                                                       "many tetrahedra",       "stiff path"};
     return kWords[static_cast<std::size_t>(reason)];
 }
 
@@ -46,12 +47,16 @@ const char* to_string(NumericsReason reason) noexcept {
 std::string to_text(const Numerics& numerics) {
     static constexpr std::array<const char*, 3> kBy{"the factor of the rest state",
                                                     "the factor of the scalar Laplacian", "block Jacobi"};
-    std::string text = "contrast " + short_number(numerics.contrast) + ", Poisson's ratio up to " +
-                       short_number(numerics.max_poissons_ratio) + ", " +
-                       std::to_string(numerics.tetrahedra) + " tetrahedra: solved in " +
-                       to_string(numerics.arithmetic) + " (" + words(numerics.arithmetic_reason) +
-                       "), preconditioned by " + kBy[static_cast<std::size_t>(numerics.preconditioner)] +
-                       " (" + words(numerics.preconditioner_reason) + ")";
+    std::string text =
+        "contrast " + short_number(numerics.contrast) +
+        (numerics.press_contrast != numerics.contrast
+             ? " (" + short_number(numerics.press_contrast) + " against the path from tool to support)"
+             : std::string()) +
+        ", Poisson's ratio up to " + short_number(numerics.max_poissons_ratio) + ", " +
+        std::to_string(numerics.tetrahedra) + " tetrahedra: solved in " + to_string(numerics.arithmetic) +
+        " (" + words(numerics.arithmetic_reason) + "), preconditioned by " +
+        kBy[static_cast<std::size_t>(numerics.preconditioner)] + " (" +
+        words(numerics.preconditioner_reason) + ")";
     if (numerics.preconditioner == Preconditioner::block_jacobi) return text;
     return text + " kept in " + to_string(numerics.factor_storage) + " (" + words(numerics.storage_reason) +
            ")";

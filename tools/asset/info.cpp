@@ -146,6 +146,7 @@ void write_numerics(JsonWriter& json, const Numerics& numerics) {
         .text("factor_storage", to_string(numerics.factor_storage))
         .text("storage_reason", to_string(numerics.storage_reason))
         .number("contrast", numerics.contrast)
+        .number("press_contrast", numerics.press_contrast)
         .number("max_poissons_ratio", numerics.max_poissons_ratio)
         .close_object();
 }

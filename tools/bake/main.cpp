@@ -64,6 +64,7 @@ std::string report(const Asset& asset, double seconds) {
                         {"factor_storage", to_string(numerics.factor_storage)},
                         {"storage_reason", to_string(numerics.storage_reason)},
                         {"contrast", numerics.contrast},
+                        {"press_contrast", numerics.press_contrast},
                         {"max_poissons_ratio", numerics.max_poissons_ratio}};
     json["seconds"] = seconds;
     return json.dump(2) + "\n";

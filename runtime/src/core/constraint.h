@@ -12,8 +12,8 @@ struct Constraint {
     std::uint32_t tool = 0;
     Mat held = Mat::Identity();
     Vec offset_m = Vec::Zero();
-    /// Friction of the tool on the node, at right angles to `held`: a load of this solve, zero unless the node
-    /// slips. The tool carries the opposite.
+    /// Friction of the tool on the node, at right angles to `held`: a load of this solve, zero unless the
+    /// node slips. The tool carries the opposite.
     Vec friction_n = Vec::Zero();
 };
 

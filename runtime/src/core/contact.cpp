@@ -117,6 +117,10 @@ Contact::Revision Contact::revise(const Attempt& attempt) noexcept {
     }
     if (!tally.changed) return tally.given_up ? Revision::given_up : Revision::settled;
     if (tally.friction_changed) ++friction_updates_;
+    for (Tool& tool : tools_) {
+        for (TouchedSet& touched : tool.touched)
+            touched.take_friction();
+    }
     if (tally.violators < fewest_violators_) {
         fewest_violators_ = tally.violators;
         passes_without_gain_ = 0;

@@ -23,12 +23,17 @@ struct Slip {
     Vec slip_m = Vec::Zero();  ///< how far it moved over the tool in this step, under that friction
     Vec friction_before_n = Vec::Zero();
     Vec slip_before_m = Vec::Zero();
-    bool compared = false;  ///< the two above are known
+    bool compared = false;       ///< the two above are known
+    Vec wanted_n = Vec::Zero();  ///< the friction for the next solve, if there is one
+    bool judged = false;         ///< the one above is known
+
+    void take_wanted() noexcept;
 };
 
-/// How much force it takes to move slipping nodes in a step, from what solves with different friction said:
-/// the Rayleigh quotient of their change (Barzilai and Borwein 1988), in units of mass / dt^2. That is at
-/// least 1, because elasticity only adds to inertia; a friction update of this stiffness does not overshoot.
+/// How much force it takes to move slipping nodes over the tool in a step, from what solves with different
+/// friction said: the Rayleigh quotient of their change (Barzilai and Borwein 1988), in units of mass / dt^2.
+/// Inertia alone is 1; elasticity makes it more, a coupled tool that gives way less. A friction update with
+/// this stiffness does not overshoot.
 class SlipStiffness {
   public:
     void reset() noexcept { factor_ = 1; }

@@ -32,7 +32,7 @@ bool about_same(Real a, Real b) {
 
 FactorStorage stored(knead::FactorStorage storage) {
     switch (storage) {
-        case knead::FactorStorage::half:
+        case knead::FactorStorage::fixed16:
             return FactorStorage::fixed_point_16;
         case knead::FactorStorage::float32:
             return FactorStorage::single_precision;
@@ -84,7 +84,7 @@ Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, con
     if (numerics.preconditioner != knead::Preconditioner::block_jacobi) {
         // More exact storage where the numbers do not fit; block Jacobi where nothing is positive definite.
         for (const knead::FactorStorage storage :
-             {knead::FactorStorage::half, knead::FactorStorage::float32, knead::FactorStorage::float64}) {
+             {knead::FactorStorage::fixed16, knead::FactorStorage::float32, knead::FactorStorage::float64}) {
             if (storage >= numerics.factor_storage && make_factor(stored(storage), target)) break;
         }
     }

@@ -116,7 +116,9 @@ void Solver<S>::start(const System<S>& system, const NodeField<S>& load, Solutio
     for (std::size_t k = 0; k < system.constraints.size(); ++k) {
         const Constraint& c = system.constraints[k];
         solution.row_n[k] /= dt2;
-        residual_.nodes.add(c.node, dt2 * c.friction_n);
+        const Vec friction = dt2 * c.friction_n;
+        residual_.nodes.add(c.node, friction);
+        if (system.tools[c.tool].moves) residual_.tools[c.tool] -= friction;
     }
     system.project(residual_);
 }

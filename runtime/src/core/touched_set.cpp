@@ -14,6 +14,8 @@ constexpr std::uint8_t kMostTouchSwitches = 4;
 /// Times that a node may go from slip back to stick in one step. After that it slips by friction that may be
 /// less than the most: the updates of the friction find it too, more slowly.
 constexpr std::uint8_t kMostGrips = 2;
+/// A tool leaves when its way and the way out are within 60 degrees.
+constexpr Real kLeaving = 0.5;
 /// How stale the reach may be, relative to itself, before it is measured again.
 constexpr Real kReachDrift = 0.5;
 
@@ -79,6 +81,7 @@ void TouchedSet::begin_step(const Frame& tool, const NodeReader& predicted, Real
         candidate.touch_switches = candidate.grips = 0;
     }
     journal_.clear();
+    slip_stiffness_before_ = slip_stiffness_;
     slip_stiffness_.begin_step();
     if (!holds_any()) return;
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
@@ -97,7 +100,7 @@ void TouchedSet::begin_step(const Frame& tool, const NodeReader& predicted, Real
         // of.
         Vec& friction = candidate.slip.friction_n;
         friction = with_length(in_plane(friction, candidate.plane.outward), friction.norm());
-        candidate.slip.compared = false;
+        candidate.slip.compared = candidate.slip.judged = false;
     }
 }
 
@@ -191,7 +194,7 @@ void TouchedSet::judge_slip(Candidate& candidate, const Vec& row_n, const Attemp
     const Real stiffness = slip_stiffness_.factor() * candidate.mass_kg / (dt_s_ * dt_s_);
     Slip& slip = candidate.slip;
     bool holds = false;
-    const Vec wanted = friction_of(slip, stiffness, most, holds);
+    slip.wanted_n = friction_of(slip, stiffness, most, holds);
     if (holds && candidate.grips < kMostGrips) {
         ++candidate.grips;
         candidate.hold = Hold::stick;
@@ -201,15 +204,12 @@ void TouchedSet::judge_slip(Candidate& candidate, const Vec& row_n, const Attemp
         return;
     }
     const Real tolerance = attempt.cone_tolerance * most + attempt.pull_tolerance_n;
-    if ((wanted - slip.friction_n).squaredNorm() <= tolerance * tolerance) return;
+    slip.judged = tally.friction_may_change;
+    if ((slip.wanted_n - slip.friction_n).squaredNorm() <= tolerance * tolerance) return;
     if (!tally.friction_may_change) {
         tally.given_up = true;
         return;
     }
-    slip.friction_before_n = slip.friction_n;
-    slip.slip_before_m = slip.slip_m;
-    slip.compared = true;
-    slip.friction_n = wanted;
     tally.changed = tally.friction_changed = true;
 }
 
@@ -245,20 +245,34 @@ void TouchedSet::revise(const Frame& tool, const Attempt& attempt, Owners& owner
     }
 }
 
+void TouchedSet::take_friction() noexcept {
+    if (kind_ != ToolContact::coulomb || !holds_any()) return;
+    for (std::size_t k = 0; k < candidates_.size(); ++k) {
+        if (event_m_[k] == kHeld) candidates_[k].slip.take_wanted();
+    }
+}
+
 void TouchedSet::yield_to_pull(const Frame& tool, const Attempt& attempt, Tally& tally) noexcept {
     if (kind_ != ToolContact::sticking || surface_.flat() || !holds_any()) return;
-    Vec axis = Vec::Zero();
+    Vec inward = Vec::Zero();
     Vec force = Vec::Zero();
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
         if (event_m_[k] != kHeld || candidates_[k].hold == Hold::open) continue;
-        axis += tool.rotation * candidates_[k].plane.outward;
+        inward -= tool.rotation * candidates_[k].plane.outward;
         force += attempt.row_n[candidates_[k].row];
     }
-    if (!(force.dot(axis) > attempt.pull_tolerance_n * axis.norm())) return;
+    slide_what_pulls(inward, force, attempt, tally);
+    const Vec way = tool.position - frame_.position;
+    if (way.dot(inward) > kLeaving * way.norm() * inward.norm()) slide_what_pulls(way, force, attempt, tally);
+}
+
+void TouchedSet::slide_what_pulls(const Vec& way, const Vec& force_n, const Attempt& attempt,
+                                  Tally& tally) noexcept {
+    if (!(force_n.dot(way) < -attempt.pull_tolerance_n * way.norm())) return;
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
         Candidate& candidate = candidates_[k];
         if (event_m_[k] != kHeld || candidate.hold != Hold::stick) continue;
-        if (attempt.row_n[candidate.row].dot(axis) <= 0) continue;
+        if (attempt.row_n[candidate.row].dot(way) >= 0) continue;
         candidate.hold = Hold::slip;  // back to stick at the end of the step, in another place
         candidate.plane.place = candidate.anchor;
         tally.changed = true;
@@ -312,6 +326,7 @@ void TouchedSet::abandon_step(Owners& owners) noexcept {
         event_m_[saved.index] = next_event_m_ = kHeld;
     }
     journal_.clear();
+    slip_stiffness_ = slip_stiffness_before_;
 }
 
 }  // namespace knead::core

@@ -83,8 +83,12 @@ class TouchedSet {
     /// @param tool predicted and displaced
     void revise(const Frame& tool, const Attempt& attempt, Owners& owners, Tally& tally) noexcept;
 
-    /// A curved tool that sticks and would be pulled as a whole, by nodes that push along their own normals
-    /// but pull sideways: lets those slide for this step. To be asked when revise() found nothing.
+    /// The friction that revise() found, because another solve is due.
+    void take_friction() noexcept;
+
+    /// A curved tool that sticks and would be pulled as a whole (against the mean of its normals, or against
+    /// its way while it leaves), by nodes that push along their own normals but pull sideways: lets those
+    /// slide for this step. To be asked when revise() found nothing.
     void yield_to_pull(const Frame& tool, const Attempt& attempt, Tally& tally) noexcept;
 
     /// @param tool where it is now  @param travel_m as in Attempt
@@ -105,6 +109,7 @@ class TouchedSet {
     void judge_open(std::size_t k, const Frame& tool, const Attempt& attempt, Owners& owners,
                     Tally& tally) noexcept;
     void judge_stick(Candidate& candidate, const Vec& row_n, const Attempt& attempt, Tally& tally) noexcept;
+    void slide_what_pulls(const Vec& way, const Vec& force_n, const Attempt& attempt, Tally& tally) noexcept;
     void measure_slip(const Frame& tool, const NodeReader& solved) noexcept;
     void judge_slip(Candidate& candidate, const Vec& row_n, const Attempt& attempt, Tally& tally) noexcept;
     [[nodiscard]] bool may_switch(const Candidate& candidate, Tally& tally) const noexcept;
@@ -136,7 +141,7 @@ class TouchedSet {
     Real reach_m_ = 0, reach_drift_m_ = 0;  ///< farthest candidate from the tool's origin, and how stale
 
     Real dt_s_ = 0;
-    SlipStiffness slip_stiffness_;
+    SlipStiffness slip_stiffness_, slip_stiffness_before_;
 };
 
 }  // namespace knead::core

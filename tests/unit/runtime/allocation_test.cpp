@@ -50,9 +50,12 @@ namespace knead::test {
 namespace {
 
 TEST(Step, never_allocates) {
-    for (const ToolShape shape : {ToolShape::plate, ToolShape::sphere}) {
+    for (const auto& [shape, contact] : {std::pair{ToolShape::plate, ToolContact::frictionless},
+                                         std::pair{ToolShape::plate, ToolContact::coulomb},
+                                         std::pair{ToolShape::sphere, ToolContact::sticking},
+                                         std::pair{ToolShape::capsule, ToolContact::coulomb}}) {
         for (const double stiffness : {0.0, 800.0}) {
-            const Asset asset = cube_asset(4, shape, ToolContact::frictionless);
+            const Asset asset = cube_asset(4, shape, contact);
             SimulationConfig config;
             config.coupling_stiffness_n_per_m = stiffness;
             Stepper stepper(asset, config);
@@ -60,8 +63,8 @@ TEST(Step, never_allocates) {
             std::uint32_t most_touched = 0;
             for (int i = 0; i < 200; ++i) {
                 const double z = 0.002 - 0.02 * std::sin(0.03 * i);
-                most_touched =
-                    std::max(most_touched, stepper.step(moved(asset, {0, 0, z}), 1e-3).touched_nodes);
+                most_touched = std::max(most_touched,
+                                        stepper.step(moved(asset, {0.0002 * i, 0, z}), 1e-3).touched_nodes);
             }
             (void)stepper.step(moved(asset, {std::nan(""), 0, 0}), 1e-3);
             (void)stepper.step(moved(asset, {1e306, 0, 0}), 1e-3);

@@ -66,10 +66,15 @@ inline Asset cube_asset(std::uint32_t n, ToolShape shape, ToolContact contact,
     tool.shape = shape;
     tool.contact = contact;
     tool.rest_position_m = {kSide_m / 2, kSide_m / 2, kSide_m};
-    if (shape == ToolShape::sphere) {
+    if (shape != ToolShape::plate) {
         tool.radius_m = 0.02;
         tool.rest_position_m[2] += tool.radius_m;
     }
+    if (shape == ToolShape::capsule) {  // lying, along y
+        tool.half_length_m = 0.02;
+        tool.rest_orientation_wxyz = {std::sqrt(0.5), std::sqrt(0.5), 0, 0};
+    }
+    if (contact == ToolContact::coulomb) tool.friction_coefficient = 0.4;
     tool.nodes = free_nodes(asset, at_height(kSide_m));
     asset.tools = {tool};
     return asset;

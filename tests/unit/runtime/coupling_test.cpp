@@ -41,6 +41,24 @@ INSTANTIATE_TEST_SUITE_P(Contacts, Coupling,
                          testing::Values(ToolContact::bonded, ToolContact::sticking,
                                          ToolContact::frictionless));
 
+TEST(CoupledTool, that_slides_with_friction_is_in_balance_with_what_it_touches) {
+    const Asset asset = cube_asset(4, ToolShape::plate, ToolContact::coulomb);
+    SimulationConfig config = coupled(1500, 2);
+    config.force_tolerance = 1e-5;
+    config.max_contact_passes = 40;
+    Stepper stepper(asset, config);
+    for (int i = 1; i <= 2000; ++i) {
+        const double x = 0.03 * std::max(0, i - 500) * 1e-3;
+        const StepResult result = stepper.step(moved(asset, {x, 0, -0.012 * std::min(1.0, i / 500.0)}), 1e-3);
+        ASSERT_EQ(result.status, kStepOk) << "step " << i;
+    }
+    const StepResult result = stepper.step(moved(asset, {0.03 * 1.501, 0, -0.012}), 1e-3);
+    EXPECT_GT(result.force_n[2], 5);
+    // Steady but for the inertia of the tool: the spring carries what friction and the normal force carry.
+    EXPECT_NEAR(result.force_n[0], -0.4 * result.force_n[2], 1e-3 * result.force_n[2]);
+    EXPECT_NEAR(result.force_n[1], 0, 1e-3 * result.force_n[2]);
+}
+
 TEST(CoupledTool, away_from_the_object_is_a_damped_oscillator_of_implicit_euler) {
     const Asset asset = cube_asset(2, ToolShape::plate, ToolContact::sticking);
     const double k = 400, c = 1.5, m = 0.1, dt = 1e-3;

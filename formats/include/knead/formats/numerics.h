@@ -6,6 +6,7 @@
 #include <string>
 
 #include "knead/formats/asset.h"
+#include "knead/formats/press_contrast.h"
 
 namespace knead {
 
@@ -20,7 +21,11 @@ enum class Preconditioner : std::uint8_t {
 };
 
 /// How the numbers of a factor are kept. Without a factor (block_jacobi) it says nothing.
-enum class FactorStorage : std::uint8_t { half = 0, float32 = 1, float64 = 2 };
+enum class FactorStorage : std::uint8_t {
+    fixed16 = 0,  ///< whole numbers of 16 bits, one float32 as the unit of each column
+    float32 = 1,
+    float64 = 2
+};
 
 /// Why a choice was made.
 enum class NumericsReason : std::uint8_t {
@@ -28,7 +33,8 @@ enum class NumericsReason : std::uint8_t {
     high_contrast = 1,          ///< the elasticities are too far apart for less
     nearly_incompressible = 2,  ///< a Poisson's ratio is too near 0.5 for less
     few_tetrahedra = 3,
-    many_tetrahedra = 4
+    many_tetrahedra = 4,
+    stiff_path = 5  ///< far apart, but what is stiff reaches from the tools to what holds the object
 };
 
 /// How the runtime solves an asset: told when baking, not stored, chosen again from the same data when
@@ -36,24 +42,29 @@ enum class NumericsReason : std::uint8_t {
 struct Numerics {
     Precision arithmetic = Precision::float32;
     Preconditioner preconditioner = Preconditioner::factor;
-    FactorStorage factor_storage = FactorStorage::half;
+    FactorStorage factor_storage = FactorStorage::fixed16;
     NumericsReason arithmetic_reason = NumericsReason::low_contrast;
     NumericsReason preconditioner_reason = NumericsReason::few_tetrahedra;
     NumericsReason storage_reason = NumericsReason::low_contrast;
     double contrast = 1;            ///< largest over smallest Young's modulus of the tetrahedra
+    double press_contrast = 1;      ///< largest over that of the path of the force, path_youngs_modulus_pa()
     double max_poissons_ratio = 0;  ///< of the tetrahedra
     std::uint64_t tetrahedra = 0;
 };
 
 // Where one choice ends and the next begins.
-/// Stiff islands in soft matter: all in float32 the force is right to 1e-3 at 1e4 and wrong by 0.18 at 1e6.
-inline constexpr double kFloat32MaxContrast = 1e4;
-/// Half precision holds 65,504: entries of the factor span the contrast, and overflow (NaN) is seen at 1e6.
-inline constexpr double kHalfFactorMaxContrast = 100;
-/// Near 0.5 the factor's entries span 1 / (1 - 2 nu) beside the contrast, and 11 bits lose iterations.
-inline constexpr double kHalfFactorMaxPoissonsRatio = 0.45;
-/// A float32 factor only preconditions, so it may be worse than the arithmetic; at 1e9 it no longer helps.
-inline constexpr double kFloat32FactorMaxContrast = 1e7;
+/// Press contrast. The force is as small as the path is soft, the rounding of the stiff rows as large as they
+/// are stiff: with stiff islands in soft matter all in float32 the force is right to 1e-3 at 1e4 and wrong by
+/// 0.18 at 1e6. With a stiff phase from tool to support float32 holds at any contrast (measured up to 1e9).
+inline constexpr double kFloat32MaxPressContrast = 1e4;
+/// Contrast. A column of the factor in 16 bits keeps 1 / 32,768 of its largest entry; its entries span the
+/// contrast, so that more of it loses the small ones, and iterations with them.
+inline constexpr double kFixed16FactorMaxContrast = 100;
+/// Near 0.5 the factor's entries span 1 / (1 - 2 nu) beside the contrast, and 16 bits lose iterations.
+inline constexpr double kFixed16FactorMaxPoissonsRatio = 0.45;
+/// Press contrast. A float32 factor only preconditions, so it may be worse than the arithmetic; with islands
+/// at 1e9 it no longer helps.
+inline constexpr double kFloat32FactorMaxPressContrast = 1e7;
 /// Beyond this the factor outgrows the cache of a core, and reading it costs more than the iterations it
 /// saves.
 inline constexpr std::uint64_t kFactorMaxTetrahedra = 16'000;
@@ -62,9 +73,9 @@ inline constexpr std::uint64_t kFactorMaxTetrahedra = 16'000;
 inline constexpr double kLaplacianMaxPoissonsRatio = 0.45;  ///< excluded
 inline constexpr double kLaplacianMaxContrast = 1e3;
 
-/// Chooses how to solve `asset`, from its elasticities and its size. Depends on nothing else; allocates
-/// nothing. Precondition: validate(asset).ok().
-[[nodiscard]] inline Numerics choose_numerics(const Asset& asset) noexcept {
+/// Chooses how to solve `asset`, from its elasticities, where they are, and its size. Depends on nothing
+/// else. Precondition: validate(asset).ok().
+[[nodiscard]] inline Numerics choose_numerics(const Asset& asset) {
     Numerics chosen;
     double softest = asset.palette[asset.palette_index[0]].youngs_modulus_pa;
     double stiffest = softest;
@@ -75,17 +86,20 @@ inline constexpr double kLaplacianMaxContrast = 1e3;
         chosen.max_poissons_ratio = std::max(chosen.max_poissons_ratio, asset.palette[index].poissons_ratio);
     }
     chosen.contrast = stiffest / softest;
+    chosen.press_contrast = stiffest / path_youngs_modulus_pa(asset);
     chosen.tetrahedra = asset.tetrahedra.size();
 
-    if (chosen.contrast > kFloat32MaxContrast) {
+    if (chosen.press_contrast > kFloat32MaxPressContrast) {
         chosen.arithmetic = Precision::float64;
         chosen.arithmetic_reason = NumericsReason::high_contrast;
+    } else if (chosen.contrast > kFloat32MaxPressContrast) {
+        chosen.arithmetic_reason = NumericsReason::stiff_path;
     }
-    if (chosen.contrast > kHalfFactorMaxContrast) {
-        const bool extreme = chosen.contrast > kFloat32FactorMaxContrast;
+    if (chosen.contrast > kFixed16FactorMaxContrast) {
+        const bool extreme = chosen.press_contrast > kFloat32FactorMaxPressContrast;
         chosen.factor_storage = extreme ? FactorStorage::float64 : FactorStorage::float32;
         chosen.storage_reason = NumericsReason::high_contrast;
-    } else if (chosen.max_poissons_ratio > kHalfFactorMaxPoissonsRatio) {
+    } else if (chosen.max_poissons_ratio > kFixed16FactorMaxPoissonsRatio) {
         chosen.factor_storage = FactorStorage::float32;
         chosen.storage_reason = NumericsReason::nearly_incompressible;
     }
@@ -110,7 +124,8 @@ inline constexpr double kLaplacianMaxContrast = 1e3;
 [[nodiscard]] const char* to_string(NumericsReason reason) noexcept;
 
 /// One sentence without its full stop: "contrast 10, ..., 1296 tetrahedra: solved in float32 (low
-/// contrast), preconditioned by ...".
+/// contrast), preconditioned by ...". Where the path of the force is stiffer than the softest tetrahedron:
+/// "contrast 1e+06 (20 against the path from tool to support), ...".
 [[nodiscard]] std::string to_text(const Numerics& numerics);
 
 }  // namespace knead

@@ -25,7 +25,7 @@ struct SimulationConfig {
     Arithmetic arithmetic = Arithmetic::automatic;
     double force_tolerance = 1e-3;    ///< relative bound of the force error of one step, (0, 0.1]
     int max_solver_iterations = 500;  ///< of the conjugate gradients, per solve, > 0
-    int max_contact_passes = 8;       ///< solves, with a changed touched set each, tried in one step, > 0
+    int max_contact_passes = 32;      ///< solves, with a changed touched set each, tried in one step, > 0
     bool with_torque = false;         ///< also find the torque on each tool
 
     /// Spring and damper between the pose that step() is given (the hand) and the tool in the scene, solved
