@@ -9,7 +9,6 @@
 
 #include "knead/runtime/simulation.h"
 #include "material/scenario.h"
-#include "reference/implicit_euler.h"
 #include "reference/plate_press.h"
 #include "stability/press_asset.h"
 #include "support/kuhn_cube.h"
@@ -121,55 +120,6 @@ INSTANTIATE_TEST_SUITE_P(Press, RuntimeAgainstReference, testing::ValuesIn(press
         .append("_n")
         .append(std::to_string(press.param.cells));
 });
-
-// A press of 10 % in a tenth of a second, then a hold, under a hand that trembles (10 Hz, 0.3 mm): nothing
-// that a prediction along the last velocity could follow by itself.
-constexpr double kMotionDtS = 1e-3;
-constexpr double kRampS = 0.1;
-constexpr int kMotionSteps = 150;
-constexpr double kTremorM = 0.3e-3;
-constexpr double kTremorHz = 10;
-// The runtime linearises once a step, the reference converges: measured 1.2e-4 of the largest force.
-constexpr double kMotionTolerance = 1e-3;
-
-double plate_way_m(double time_s, double way_m) {
-    return way_m * std::min(1.0, time_s / kRampS) + kTremorM * std::sin(2 * M_PI * kTremorHz * time_s);
-}
-
-TEST(RuntimeAgainstReferenceInMotion,
-     Force_under_a_trembling_plate_is_that_of_converged_implicit_euler_steps) {
-    const TetMesh mesh = test::kuhn_cube(4);
-    const Material material = tools::scenario_material(mesh, 1, kSeed, kPoissonsRatio, kDensityKgPerM3);
-    const tools::PlatePress press = tools::plate_press(mesh, kStrain);
-    Result<Simulation> created = Simulation::create(test::press_asset(mesh, material, press).asset);
-    ASSERT_TRUE(created.ok()) << created.error().text();
-    Simulation simulation = std::move(created).value();
-    const Pose rest = simulation.tool_rest_pose();
-    tools::ImplicitEuler reference(mesh, material);
-    tools::MotionState state = reference.rest();
-    tools::PrescribedMotion motion = press.motion;
-
-    double largest_n = 0;
-    double largest_error_n = 0;
-    for (int k = 1; k <= kMotionSteps; ++k) {
-        const double way_m = plate_way_m(k * kMotionDtS, kStrain * press.height_m);
-        Pose pose = rest;
-        pose.position_m[2] -= way_m;
-        const StepResult step = simulation.step(pose, kMotionDtS);
-        ASSERT_EQ(step.status, kStepOk) << "step " << k;
-        for (std::size_t p = press.held_nodes.size(); p < motion.nodes.size(); ++p)
-            motion.displacement_m[p] = {0, 0, -way_m};
-        const tools::MotionStep expected = reference.step(state, motion, kMotionDtS);
-        state = expected.state;
-        const Point force_n = tools::force_on_plate_n(press, expected.solution);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            largest_n = std::max(largest_n, std::abs(force_n[axis]));
-            largest_error_n = std::max(largest_error_n, std::abs(step.force_n[axis] - force_n[axis]));
-        }
-    }
-    EXPECT_LT(largest_error_n, kMotionTolerance * largest_n);
-    RecordProperty("force_error", testing::PrintToString(largest_error_n / largest_n));
-}
 
 }  // namespace
 }  // namespace knead

@@ -7,6 +7,8 @@
 
 namespace knead::core {
 
+struct TetStrip;
+
 /// The corotational linear tetrahedra (Mueller and Gross 2004): forces and their linearisation.
 ///
 /// Energy of one tetrahedron: volume * (mu |F - R|^2 + lambda / 2 * tr(R^T F - I)^2) with R the rotation
@@ -21,7 +23,8 @@ class Elements {
     /// Forgets the rotations: at rest.
     void reset() noexcept;
 
-    /// Linearises at rest + `u` (m). @param forces overwritten with scale * the elastic force on every node (N)
+    /// Linearises at rest + `u` (m). @param forces overwritten with scale * the elastic force on every node
+    /// (N)
     void linearise(S scale, const NodeField<S>& u, NodeField<S>& forces) noexcept;
 
     /// out += scale * K(R) u, at the state that was linearised last.
@@ -36,10 +39,12 @@ class Elements {
     [[nodiscard]] const AlignedArray<S>& rotations() const noexcept { return rotations_; }
 
   private:
+    void add(const Model& model, const TetStrip& strip, std::size_t block, std::size_t lane);
     ElementArrays<S> view() noexcept;
 
     const ElementKernels<S>& kernels_;
-    std::size_t blocks_;
+    std::size_t blocks_ = 0;
+    std::vector<std::uint32_t> rotation_at_;  ///< [elements] where in rotations_
     AlignedArray<std::int32_t> nodes_;
     AlignedArray<S> rest_inverse_, lame_volume_;
     AlignedArray<S> rotations_, gradients_;

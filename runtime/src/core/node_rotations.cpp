@@ -1,29 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/node_rotations.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace knead::core {
+namespace {
+
+/// Tetrahedra whose rotations a node's is the mean of: enough for a preconditioner, few enough to visit often.
+constexpr std::size_t kStiffest = 6;
+
+}  // namespace
 
 template <class S>
 NodeRotations<S>::NodeRotations(const Model& model)
     : begin_(model.free_count + 1, 0), matrices_(model.free_count) {
-    const auto visit = [&](auto&& use) {
-        for (std::uint32_t e = 0; e < model.elements.size(); ++e) {
-            for (const std::uint32_t node : model.elements[e].nodes) {
-                if (node < model.free_count) use(node, e);
-            }
-        }
-    };
-    visit([&](std::uint32_t node, std::uint32_t) { ++begin_[node + 1]; });
-    for (std::size_t i = 0; i < model.free_count; ++i)
-        begin_[i + 1] += begin_[i];
-    neighbours_.resize(begin_.back());
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    visit([&](std::uint32_t node, std::uint32_t e) {
+    std::vector<std::vector<Neighbour>> around(model.free_count);
+    for (std::uint32_t e = 0; e < model.elements.size(); ++e) {
         const Element& element = model.elements[e];
-        neighbours_[next[node]++] = {e, static_cast<float>(2 * element.mu_volume + element.lambda_volume)};
-    });
+        const auto weight = static_cast<float>(2 * element.mu_volume + element.lambda_volume);
+        for (const std::uint32_t node : element.nodes) {
+            if (node < model.free_count) around[node].push_back({e, weight});
+        }
+    }
+    for (std::uint32_t i = 0; i < model.free_count; ++i) {
+        std::stable_sort(around[i].begin(), around[i].end(),
+                         [](const Neighbour& a, const Neighbour& b) { return a.weight > b.weight; });
+        around[i].resize(std::min(around[i].size(), kStiffest));
+        neighbours_.insert(neighbours_.end(), around[i].begin(), around[i].end());
+        begin_[i + 1] = static_cast<std::uint32_t>(neighbours_.size());
+    }
     reset();
 }
 
@@ -57,16 +63,30 @@ void NodeRotations<S>::update_node(const Elements<S>& elements, std::size_t node
 }
 
 template <class S>
-void NodeRotations<S>::precondition(const std::vector<std::array<S, 9>>& blocks, const NodeField<S>& v,
-                                    NodeField<S>& out) const noexcept {
-    for (std::size_t i = 0; i < matrices_.size(); ++i) {
-        using Block = Eigen::Matrix<S, 3, 3, Eigen::RowMajor>;
-        const Eigen::Map<const Block> turn(matrices_[i].data()), block(blocks[i].data());
-        const Eigen::Map<const Eigen::Matrix<S, 3, 1>> in(v.data() + 4 * i);
-        Eigen::Map<Eigen::Matrix<S, 3, 1>> to(out.data() + 4 * i);
-        const Eigen::Matrix<S, 3, 1> back = turn.transpose() * in;
-        const Eigen::Matrix<S, 3, 1> solved = block * back;
-        to = turn * solved;
+void NodeRotations<S>::turn_back(const NodeField<S>& v, NodeField<S>& out) const noexcept {
+    const S* in = v.data();
+    S* to = out.data();
+    for (const std::array<S, 9>& r : matrices_) {
+        const S x = in[0], y = in[1], z = in[2];
+        to[0] = r[0] * x + r[3] * y + r[6] * z;
+        to[1] = r[1] * x + r[4] * y + r[7] * z;
+        to[2] = r[2] * x + r[5] * y + r[8] * z;
+        in += 4;
+        to += 4;
+    }
+}
+
+template <class S>
+void NodeRotations<S>::turn(const NodeField<S>& v, NodeField<S>& out) const noexcept {
+    const S* in = v.data();
+    S* to = out.data();
+    for (const std::array<S, 9>& r : matrices_) {
+        const S x = in[0], y = in[1], z = in[2];
+        to[0] = r[0] * x + r[1] * y + r[2] * z;
+        to[1] = r[3] * x + r[4] * y + r[5] * z;
+        to[2] = r[6] * x + r[7] * y + r[8] * z;
+        in += 4;
+        to += 4;
     }
 }
 

@@ -5,8 +5,8 @@
 
 namespace knead::core {
 
-/// How far the matter around each free node has turned: the mean of the rotations of its tetrahedra, each
-/// weighted by its stiffness, so that a stiff inclusion in soft matter turns as one body.
+/// How far the matter around each free node has turned: the mean of the rotations of its stiffest tetrahedra,
+/// each weighted by its stiffness, so that a stiff inclusion in soft matter turns as one body.
 ///
 /// A preconditioner made for the rest state is turned by them ("warped"). They may lag behind the state: only
 /// the number of iterations depends on it. S is float or double. Allocates in the constructor only.
@@ -27,9 +27,9 @@ class NodeRotations {
     template <class T>
     void turn(const T* v, NodeField<S>& out) const noexcept;
 
-    /// out = R B R^T v with a row-major block B for every node.
-    void precondition(const std::vector<std::array<S, 9>>& blocks, const NodeField<S>& v,
-                      NodeField<S>& out) const noexcept;
+    /// The same between fields. @param out may be v
+    void turn_back(const NodeField<S>& v, NodeField<S>& out) const noexcept;
+    void turn(const NodeField<S>& v, NodeField<S>& out) const noexcept;
 
     [[nodiscard]] Mat rotation(std::size_t node) const noexcept;
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <numeric>
 
 namespace knead::core {
 namespace {
@@ -16,8 +17,10 @@ constexpr int kLastingSteps = 8;
 constexpr Real kWorkPerSecond = 1e9;
 /// Shares of the nodes whose rotations are taken anew, one share in each step.
 constexpr std::uint32_t kRotationShares = 32;
-/// Shares of the blocks of block Jacobi that are made anew in each step for another dt.
-constexpr std::uint32_t kBlockShares = 16;
+/// Where dt^2 times stiffness over mass, node for node, is below this on average, the inverse hardly reaches
+/// beyond the neighbours: one iteration with the sparse inverse leaves less than a tenth of the error, for a
+/// fraction of the work of a factor.
+constexpr Real kSparseStiffness = 12;
 /// Free nodes that tools may touch, up to which the correction for contact is kept: its table grows with the
 /// square, and takes 9 MB here.
 constexpr std::size_t kMostTouchable = 512;
@@ -66,66 +69,61 @@ Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, con
                                   const std::vector<std::uint32_t>& touchable)
     : model_(model),
       fields_(kernels(target).field<S>()),
-      masses_(model),
       expected_dt_s_(dt_s),
       dt_s_(dt_s),
       rotation_shares_(numerics.contrast <= kLaggingContrast ? kRotationShares : 1),
       rotations_(model),
-      matrix_(model, numerics.preconditioner == knead::Preconditioner::laplacian ? RestMatrix::Kind::laplacian
-                                                                              : RestMatrix::Kind::elastic),
+      matrix_(model, RestMatrix::Kind::elastic),
+      sparse_(matrix_.pattern(), kernels(target)),
+      turned_(model.rest_m.size()),
+      held_(touchable.size()),
+      own_inverse_(model.bonded.size(), Mat::Zero()),
       packed_float_(3 * model.free_count),
       solved_float_(3 * model.free_count),
       packed_double_(3 * model.free_count),
       solved_double_(3 * model.free_count),
       node_stiffness_(node_stiffnesses(model)),
       held_stiffness_(model.bonded.size(), 0),
-      tool_inverse_(model.bonded.size(), Mat::Zero()) {
-    matrix_.set(dt_s_, 1 + model.damping_per_s * dt_s_);
+      tool_inverse_(model.bonded.size(), Mat::Zero()),
+      stiffness_per_s2_(std::accumulate(node_stiffness_.begin(), node_stiffness_.end(), Real(0)) /
+                        model.free_mass_kg) {
+    if (numerics.preconditioner == knead::Preconditioner::laplacian)
+        laplacian_matrix_ = std::make_unique<RestMatrix>(model, RestMatrix::Kind::laplacian);
     if (numerics.preconditioner != knead::Preconditioner::block_jacobi) {
-        // More exact storage where the numbers do not fit; block Jacobi where nothing is positive definite.
-        for (const knead::FactorStorage storage :
-             {knead::FactorStorage::fixed16, knead::FactorStorage::float32, knead::FactorStorage::float64}) {
-            if (storage >= numerics.factor_storage && make_factor(stored(storage), target)) break;
-        }
+        const RestMatrix& factored = laplacian() ? *laplacian_matrix_ : matrix_;
+        factor_ = std::make_unique<SupernodalFactor>(factored.pattern(), factored.block_size(),
+                                                     stored(numerics.factor_storage), target);
+        scratch_ = std::make_unique<SupernodalFactor::Scratch>(*factor_);
     }
-    if (!factor_ && turns()) {
-        blocks_.resize(model.free_count);
-        make_blocks(0, 1);
-    }
-    own_inverse_.assign(model.bonded.size(), Mat::Zero());
-    held_.resize(touchable.size());
-    if (factor_ && turns() && !touchable.empty() && touchable.size() <= kMostTouchable) {
+    if (factor_ && !laplacian() && !touchable.empty() && touchable.size() <= kMostTouchable) {
         correction_ = std::make_unique<ContactCorrection>(*factor_, touchable, model.bonded.size(),
                                                           ContactCorrection::kColumnBytes, target);
-        correction_->build();
         correction_scratch_ = std::make_unique<ContactCorrection::Scratch>(*correction_);
     }
     find_borders(elements);
+    make_for(dt_s);
+}
+
+template <class S>
+bool Preconditioner<S>::sparse_suffices(Real dt_s) const noexcept {
+    return !factor_ || dt_s * dt_s * stiffness_per_s2_ <= kSparseStiffness;
+}
+
+/// Everything for one dt at once: when loading and on reset.
+template <class S>
+void Preconditioner<S>::make_for(Real dt_s) noexcept {
+    dt_s_ = dt_s;
+    const Real inertia = 1 + model_.damping_per_s * dt_s;
+    matrix_.set(dt_s, inertia);
+    if (laplacian()) laplacian_matrix_->set(dt_s, inertia);
+    uses_sparse_ = sparse_suffices(dt_s);
+    if (!uses_sparse_) {
+        // Refused: not positive definite as far as rounding can tell. The sparse inverse always is.
+        uses_sparse_ = !factor_->factorise((laplacian() ? *laplacian_matrix_ : matrix_).values());
+        if (!uses_sparse_ && correction_) correction_->build();
+    }
+    if (uses_sparse_) sparse_.make(matrix_.values(), 0, sparse_.row_count());
     find_responses();
-    reset();
-}
-
-template <class S>
-bool Preconditioner<S>::make_factor(FactorStorage storage, SimdTarget target) {
-    factor_ = std::make_unique<SupernodalFactor>(matrix_.pattern(), matrix_.block_size(), storage, target);
-    if (!factor_->factorise(matrix_.values())) {
-        factor_.reset();
-        return false;
-    }
-    scratch_ = std::make_unique<SupernodalFactor::Scratch>(*factor_);
-    return true;
-}
-
-template <class S>
-void Preconditioner<S>::make_blocks(std::uint32_t first, std::uint32_t stride) noexcept {
-    const MatrixPattern& pattern = matrix_.pattern();
-    if (blocks_.empty()) return;
-    for (std::uint32_t i = first; i < model_.free_count; i += stride) {
-        const double* const value = matrix_.values() + std::size_t{9} * pattern.column_begin[i];
-        const Mat block = Eigen::Map<const Eigen::Matrix3d>(value).inverse();
-        for (int k = 0; k < 9; ++k)
-            blocks_[i][static_cast<std::size_t>(k)] = static_cast<S>(block(k / 3, k % 3));
-    }
 }
 
 template <class S>
@@ -158,11 +156,6 @@ void Preconditioner<S>::find_responses() noexcept {
     const Real dt2 = dt_s_ * dt_s_;
     for (Border& border : borders_) {
         if (border.force[0].size() == 0) continue;
-        if (!factor_) {
-            // Block Jacobi knows no response: the bound with all free nodes still.
-            border.sensitivity = dt2 * border.stiffness.trace();
-            continue;
-        }
         for (std::size_t axis = 0; axis < 3; ++axis) {
             solve(border.force[axis], border.response[axis]);
             fields_.scale(border.response[axis].size(), static_cast<S>(dt2), border.response[axis].data());
@@ -187,68 +180,72 @@ void Preconditioner<S>::reset() noexcept {
     rotations_.reset();
     if (correction_) correction_->clear();
     corrects_ = false;
-    steps_wanted_ = 0;
     wanted_dt_s_ = 0;
-    if (dt_s_ == expected_dt_s_ && !working_) return;
+    steps_wanted_ = 0;
     // Steps depend on nothing but the steps since the reset.
-    working_ = false;
-    dt_s_ = expected_dt_s_;
-    matrix_.set(dt_s_, 1 + model_.damping_per_s * dt_s_);
-    if (factor_)
-        (void)factor_->factorise(matrix_.values());
-    else
-        make_blocks(0, 1);
-    if (correction_) correction_->build();
-    find_responses();
+    if (dt_s_ != expected_dt_s_ || job_ != Job::none) make_for(expected_dt_s_);
+    job_ = Job::none;
 }
 
 template <class S>
 void Preconditioner<S>::begin_step(const System<S>& system) noexcept {
-    if (turns()) rotations_.update(system.elements, rotation_shares_);
+    if (uses_sparse_ || !laplacian()) rotations_.update(system.elements, rotation_shares_);
     follow(system.dt_s);
 }
 
 /// Numbers for another dt, once it lasts.
 template <class S>
 void Preconditioner<S>::follow(Real dt_s) noexcept {
-    if (!working_) {
-        if (about_same(dt_s, dt_s_)) {
-            steps_wanted_ = 0;
-            return;
-        }
-        steps_wanted_ = about_same(dt_s, wanted_dt_s_) ? steps_wanted_ + 1 : 1;
-        wanted_dt_s_ = dt_s;
-        if (steps_wanted_ < kLastingSteps) return;
-        matrix_.set(wanted_dt_s_, 1 + model_.damping_per_s * wanted_dt_s_);
-        if (factor_) factor_->begin(matrix_.values());
-        next_block_ = 0;
-        working_ = true;
+    if (job_ != Job::none) {
+        if (!advance(static_cast<std::uint64_t>(kWorkPerSecond * dt_s))) return;
+        job_ = Job::none;
+        steps_wanted_ = 0;
         return;
     }
-    const auto work = static_cast<std::uint64_t>(kWorkPerSecond * dt_s);
-    if (!factor_) {
-        make_blocks(next_block_++, kBlockShares);
-        if (next_block_ < kBlockShares) return;
-    } else if (!factored_) {
+    if (about_same(dt_s, dt_s_)) {
+        steps_wanted_ = 0;
+        return;
+    }
+    steps_wanted_ = about_same(dt_s, wanted_dt_s_) ? steps_wanted_ + 1 : 1;
+    wanted_dt_s_ = dt_s;
+    if (steps_wanted_ < kLastingSteps) return;
+    const Real inertia = 1 + model_.damping_per_s * dt_s;
+    matrix_.set(dt_s, inertia);
+    if (laplacian()) laplacian_matrix_->set(dt_s, inertia);
+    next_row_ = 0;
+    job_ = sparse_suffices(dt_s) ? Job::sparse : Job::factor;
+    if (job_ == Job::factor) factor_->begin((laplacian() ? *laplacian_matrix_ : matrix_).values());
+}
+
+/// A piece of the job. @return whether it is over
+template <class S>
+bool Preconditioner<S>::advance(std::uint64_t work) noexcept {
+    if (job_ == Job::sparse) {
+        // Rows of two different dt go together: each row on its own is as good as any.
+        const auto rows = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, work / sparse_.largest_row()));
+        const std::uint32_t last = std::min(sparse_.row_count(), next_row_ + rows);
+        sparse_.make(matrix_.values(), next_row_, last);
+        next_row_ = last;
+        if (next_row_ < sparse_.row_count()) return false;
+        uses_sparse_ = true;
+    } else if (job_ == Job::factor) {
         const Progress progress = correction_ ? factor_->advance_staged(work) : factor_->advance(work);
-        if (progress == Progress::working) return;
-        if (progress == Progress::refused) {
-            working_ = false;
-            return;
-        }
-        factored_ = true;
+        if (progress == Progress::working) return false;
+        if (progress == Progress::refused) return true;
         if (correction_) {
             correction_->begin();
-            return;
+            job_ = Job::contact;
+            return false;
         }
+        uses_sparse_ = false;
     } else {
-        if (correction_->advance(work) == Progress::working) return;
+        if (correction_->advance(work) == Progress::working) return false;
         correction_->adopt();
+        uses_sparse_ = false;
     }
-    working_ = factored_ = false;
-    steps_wanted_ = 0;
     dt_s_ = wanted_dt_s_;
     find_responses();
+    return true;
 }
 
 template <class S>
@@ -276,7 +273,7 @@ void Preconditioner<S>::hold(const System<S>& system) noexcept {
 /// the correction does not know: then held nodes of other tools are left to the projection.
 template <class S>
 void Preconditioner<S>::correct_for(const System<S>& system) noexcept {
-    corrects_ = correction_ != nullptr && !system.constraints.empty();
+    corrects_ = correction_ != nullptr && !uses_sparse_ && !system.constraints.empty();
     for (std::size_t k = 0; k < system.tools.size(); ++k) {
         const bool moves = system.tools[k].moves;
         own_inverse_[k] = moves ? Mat(Mat::Identity() / system.tool_diagonal_kg(k)) : Mat(Mat::Zero());
@@ -310,7 +307,7 @@ void Preconditioner<S>::apply(const System<S>& system, const Unknowns<S>& residu
         out.tools[k].setZero();
         if (!system.tools[k].moves) continue;
         const Border& border = borders_[k];
-        const bool follows = factor_ != nullptr && border.force[0].size() > 0;
+        const bool follows = border.force[0].size() > 0;
         Vec rest = residual.tools[k];
         for (std::size_t axis = 0; follows && axis < 3; ++axis) {
             rest[static_cast<int>(axis)] -= static_cast<Real>(
@@ -329,12 +326,13 @@ template <class S>
 template <class T>
 void Preconditioner<S>::solve_with(AlignedArray<T>& packed, const NodeField<S>& residual,
                                    NodeField<S>& out) const noexcept {
-    if (turns()) {
+    if (!laplacian()) {
         rotations_.turn_back(residual, packed.data());
         factor_->solve(packed.data(), packed.data(), *scratch_);
         rotations_.turn(packed.data(), out);
         return;
     }
+    // The same whatever the rotations.
     for (std::size_t i = 0; i < model_.free_count; ++i) {
         for (std::size_t k = 0; k < 3; ++k)
             packed[3 * i + k] = static_cast<T>(residual.data()[4 * i + k]);
@@ -358,15 +356,30 @@ void Preconditioner<S>::solve_corrected(AlignedArray<T>& packed, AlignedArray<T>
 
 template <class S>
 void Preconditioner<S>::solve(const NodeField<S>& residual, NodeField<S>& out) const noexcept {
-    if (factor_ && in_double()) {
+    if (uses_sparse_) {
+        rotations_.turn_back(residual, turned_);
+        sparse_.apply(turned_, turned_);
+        rotations_.turn(turned_, out);
+    } else if (in_double()) {
         solve_with(packed_double_, residual, out);
-    } else if (factor_) {
-        solve_with(packed_float_, residual, out);
-    } else if (blocks_.empty()) {
-        fields_.multiply(run_of(model_.free_count), masses_.per_kg.data(), S(1), residual.data(), out.data());
     } else {
-        rotations_.precondition(blocks_, residual, out);
+        solve_with(packed_float_, residual, out);
     }
+}
+
+template <class S>
+Vec Preconditioner<S>::force_owed(const System<S>& system, std::size_t tool,
+                                  const NodeField<S>& residual) const noexcept {
+    Vec force = Vec::Zero();
+    const Border& border = borders_[tool];
+    if (system.tools[tool].moves || border.force[0].size() == 0 || !about_same(system.dt_s, dt_s_))
+        return force;
+    const std::size_t free = run_of(model_.free_count);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        force[static_cast<int>(axis)] =
+            -static_cast<Real>(fields_.dot(free, border.response[axis].data(), residual.data()));
+    }
+    return force / (system.dt_s * system.dt_s);
 }
 
 template <class S>
@@ -386,7 +399,7 @@ Real Preconditioner<S>::force_sensitivity(const System<S>& system, std::size_t t
 
 template <class S>
 std::size_t Preconditioner<S>::factor_bytes() const noexcept {
-    return factor_ ? factor_->panel_bytes() : blocks_.size() * sizeof(blocks_[0]);
+    return uses_sparse_ ? sparse_.bytes() : factor_->panel_bytes();
 }
 
 template class Preconditioner<float>;

@@ -5,6 +5,7 @@
 
 #include "core/factor/contact_correction.h"
 #include "core/node_rotations.h"
+#include "core/sparse_inverse.h"
 #include "core/system.h"
 #include "knead/formats/numerics.h"
 
@@ -13,7 +14,8 @@ namespace knead::core {
 /// The inverse that conjugate gradients are given: of the rest-state matrix, turned node by node with the
 /// matter (NodeRotations).
 ///
-/// Made for one dt when constructed. Another dt of the steps only costs iterations; when it lasts, the numbers
+/// Where mass outweighs stiffness it is the sparse approximate inverse, else a factor. Made for one dt when
+/// constructed. Another dt of the steps only costs iterations; when it lasts, the numbers
 /// are made anew, a bounded piece of work in each step, and taken into use at a step that depends on nothing
 /// but the steps so far. S is float or double. Allocates in the constructor only.
 template <class S>
@@ -35,6 +37,12 @@ class Preconditioner {
     /// @param residual projected  @param out expanded
     void apply(const System<S>& system, const Unknowns<S>& residual, Unknowns<S>& out) const noexcept;
 
+    /// By how much what is left of the residual would change the force of a bonded tool that does not move, to
+    /// first order in how far this is from the inverse: the response to the tool's motion is that of its force
+    /// to loads, by symmetry. Zero for other tools.
+    [[nodiscard]] Vec force_owed(const System<S>& system, std::size_t tool,
+                                 const NodeField<S>& residual) const noexcept;
+
     /// Largest squared error of a tool's force for a unit of squared energy error, N^2 / (kg m^2).
     [[nodiscard]] Real force_sensitivity(const System<S>& system, std::size_t tool) const noexcept;
 
@@ -53,8 +61,9 @@ class Preconditioner {
     };
 
     void correct_for(const System<S>& system) noexcept;
-    bool make_factor(FactorStorage storage, SimdTarget target);
-    void make_blocks(std::uint32_t first, std::uint32_t stride) noexcept;
+    [[nodiscard]] bool sparse_suffices(Real dt_s) const noexcept;
+    void make_for(Real dt_s) noexcept;
+    [[nodiscard]] bool advance(std::uint64_t work) noexcept;
     void find_borders(Elements<S>& elements);
     void find_responses() noexcept;
     void follow(Real dt_s) noexcept;
@@ -67,19 +76,21 @@ class Preconditioner {
     [[nodiscard]] bool in_double() const noexcept {
         return factor_->storage() == FactorStorage::double_precision;
     }
-    [[nodiscard]] bool turns() const noexcept { return matrix_.kind() == RestMatrix::Kind::elastic; }
+    [[nodiscard]] bool laplacian() const noexcept { return laplacian_matrix_ != nullptr; }
 
     const Model& model_;
     const FieldKernels<S>& fields_;
-    const Masses<S> masses_;
     const Real expected_dt_s_;
     Real dt_s_;  ///< of the numbers in use
     std::uint32_t rotation_shares_;
     NodeRotations<S> rotations_;
     RestMatrix matrix_;
-    std::unique_ptr<SupernodalFactor> factor_;  ///< none: block Jacobi
+    SparseInverse<S> sparse_;
+    bool uses_sparse_ = true;
+    std::unique_ptr<RestMatrix> laplacian_matrix_;  ///< what the factor is of; none: of matrix_
+    std::unique_ptr<SupernodalFactor> factor_;      ///< none: always the sparse inverse
     mutable std::unique_ptr<SupernodalFactor::Scratch> scratch_;
-    std::vector<std::array<S, 9>> blocks_;  ///< block Jacobi: [free nodes] inverse, row-major
+    mutable NodeField<S> turned_;
     std::unique_ptr<ContactCorrection> correction_;  ///< none: held nodes are left to the projection
     mutable std::unique_ptr<ContactCorrection::Scratch> correction_scratch_;
     std::vector<HeldNode> held_;
@@ -92,12 +103,13 @@ class Preconditioner {
     std::vector<Real> held_stiffness_;    ///< [tools] of the nodes in the constraints together, N/m
     std::vector<Mat> tool_inverse_;       ///< [tools] moving ones: of what is left for the tool itself
 
-    // Another dt.
+    /// New numbers for another dt, what is being made.
+    enum class Job : std::uint8_t { none, sparse, factor, contact };
+    Real stiffness_per_s2_ = 0;  ///< sum of node stiffnesses over the free mass
     Real wanted_dt_s_ = 0;
     int steps_wanted_ = 0;
-    bool working_ = false;      ///< new numbers are being made
-    bool factored_ = false;     ///< those of the factor are
-    std::uint32_t next_block_ = 0;
+    Job job_ = Job::none;
+    std::uint32_t next_row_ = 0;
 };
 
 }  // namespace knead::core

@@ -12,6 +12,9 @@ constexpr Real kForceFloor_n = 1e-5;
 /// By how much the preconditioned residual may underestimate the error where it is believed.
 constexpr Real kTrust = 4;
 
+/// What is left of the squared error of a force after Preconditioner::force_owed(), where it is believed.
+constexpr Real kOwedForce = 0.4;
+
 /// What is known of the error: decreases of its squared energy norm in the last two iterations.
 struct Decreases {
     Real last = 0, before = 0;
@@ -80,9 +83,10 @@ bool Solver<S>::small_enough(const System<S>& system, const Preconditioner<S>& p
                              Real squared_error) const noexcept {
     const Real drift = limits.velocity_tolerance_m_per_s * system.dt_s;
     if (!(squared_error <= system.model.free_mass_kg * drift * drift)) return false;
+    const Real left = limits.trusts_preconditioner ? kOwedForce : 1;
     for (std::size_t k = 0; k < system.tools.size(); ++k) {
         const Real bound = limits.force_tolerance * std::max(solution.force_n[k].norm(), kForceFloor_n);
-        if (!(preconditioner.force_sensitivity(system, k) * squared_error <= bound * bound)) return false;
+        if (!(left * preconditioner.force_sensitivity(system, k) * squared_error <= bound * bound)) return false;
     }
     return true;
 }
@@ -193,6 +197,9 @@ void Solver<S>::solve(const System<S>& system, const Preconditioner<S>& precondi
         rz = next;
     }
     find_forces(system, solution);
+    if (!limits.trusts_preconditioner) return;
+    for (std::size_t k = 0; k < system.tools.size(); ++k)
+        solution.force_n[k] += preconditioner.force_owed(system, k, residual_.nodes);
 }
 
 template class Solver<float>;

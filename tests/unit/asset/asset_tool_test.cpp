@@ -65,7 +65,7 @@ TEST(Info_of_an_asset, Shows_groups_bytes_and_the_line_of_the_scene) {
     EXPECT_THAT(text,
                 HasSubstr("numerics        contrast 10, Poisson's ratio up to 0.45, 6 tetrahedra: solved in "
                           "float32 (low contrast), preconditioned by the factor of the rest state (few "
-                          "tetrahedra) kept in half (low contrast)\n"));
+                          "tetrahedra) kept in fixed16 (low contrast)\n"));
     EXPECT_THAT(text, HasSubstr("embedding       4 vertices, 1 of them still, 2 triangles\n"));
     EXPECT_THAT(text, HasSubstr("--name=a b"));
     EXPECT_THAT(text, HasSubstr("E 22000 Pa, nu 0.3, density 1000 kg/m^3, 3 tetrahedra"));

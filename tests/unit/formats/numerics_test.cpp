@@ -33,18 +33,18 @@ TEST(Choice_of_numerics, Changes_exactly_at_its_limits) {
     using C = Preconditioner;
     using S = FactorStorage;
     const Case cases[] = {
-        {1296, 1, 0.3, P::float32, C::factor, S::half},
-        {1296, 100, 0.45, P::float32, C::factor, S::half},
+        {1296, 1, 0.3, P::float32, C::factor, S::fixed16},
+        {1296, 100, 0.45, P::float32, C::factor, S::fixed16},
         {1296, 101, 0.45, P::float32, C::factor, S::float32},
         {1296, 100, 0.451, P::float32, C::factor, S::float32},
         {1296, 1e4, 0.3, P::float32, C::factor, S::float32},
         {1296, 1.001e4, 0.3, P::float64, C::factor, S::float32},
         {1296, 1e7, 0.3, P::float64, C::factor, S::float32},
         {1296, 1.001e7, 0.49, P::float64, C::factor, S::float64},
-        {16000, 10, 0.3, P::float32, C::factor, S::half},
-        {16001, 10, 0.3, P::float32, C::laplacian, S::half},
-        {16001, 10, 0.449, P::float32, C::laplacian, S::half},
-        {16001, 10, 0.45, P::float32, C::block_jacobi, S::half},
+        {16000, 10, 0.3, P::float32, C::factor, S::fixed16},
+        {16001, 10, 0.3, P::float32, C::laplacian, S::fixed16},
+        {16001, 10, 0.449, P::float32, C::laplacian, S::fixed16},
+        {16001, 10, 0.45, P::float32, C::block_jacobi, S::fixed16},
         {16001, 1e3, 0.3, P::float32, C::laplacian, S::float32},
         {16001, 1.001e3, 0.3, P::float32, C::block_jacobi, S::float32},
         {48000, 1e6, 0.49, P::float64, C::block_jacobi, S::float32},
@@ -60,6 +60,32 @@ TEST(Choice_of_numerics, Changes_exactly_at_its_limits) {
     }
 }
 
+/// The column of a stiff tetrahedron on the floor and a soft one beside it, under a tool that both reach.
+Asset with_a_stiff_path(double contrast) {
+    Asset asset = sample_asset();
+    asset.palette = {{1000, 0.3, 1000}, {1000 * contrast, 0.3, 1000}};
+    asset.nodes_m.insert(asset.nodes_m.end(), {{0, 0, -1}, {1, 0, -1}});
+    asset.tetrahedra = {{0, 1, 2, 8}, {0, 1, 2, 9}};
+    asset.palette_index = {0, 1};
+    return asset;
+}
+
+// Stiff islands need double precision; a stiff phase that carries the force from tool to support does not.
+TEST(Choice_of_numerics, Takes_single_precision_where_the_path_of_the_force_is_stiff) {
+    for (const double contrast : {1e5, 1e6, 1e9}) {
+        Asset asset = with_a_stiff_path(contrast);
+        asset.tools.resize(1);  // bonded
+        const Numerics chosen = choose_numerics(asset);
+        EXPECT_DOUBLE_EQ(chosen.contrast, contrast);
+        EXPECT_EQ(chosen.press_contrast, 1);
+        EXPECT_EQ(chosen.arithmetic, Precision::float32);
+        EXPECT_EQ(chosen.arithmetic_reason, NumericsReason::stiff_path);
+        EXPECT_EQ(chosen.factor_storage, FactorStorage::float32);
+        asset.free_node_count = static_cast<std::uint32_t>(asset.nodes_m.size());  // nothing holds it
+        EXPECT_EQ(choose_numerics(asset).arithmetic, Precision::float64);
+    }
+}
+
 TEST(Choice_of_numerics, Does_not_look_at_palette_entries_that_no_tetrahedron_uses) {
     Asset asset = asset_of(6, 10, 0.3);
     asset.palette.push_back({1e12, 0.499, 1000});
@@ -69,12 +95,21 @@ TEST(Choice_of_numerics, Does_not_look_at_palette_entries_that_no_tetrahedron_us
 }
 
 TEST(Choice_of_numerics, Says_why_in_one_sentence) {
-    EXPECT_EQ(to_text(choose_numerics(asset_of(1296, 10, 0.3))),
-              "contrast 10, Poisson's ratio up to 0.3, 1296 tetrahedra: solved in float32 (low contrast), "
-              "preconditioned by the factor of the rest state (few tetrahedra) kept in half (low contrast)");
+    EXPECT_EQ(
+        to_text(choose_numerics(asset_of(1296, 10, 0.3))),
+        "contrast 10, Poisson's ratio up to 0.3, 1296 tetrahedra: solved in float32 (low contrast), "
+        "preconditioned by the factor of the rest state (few tetrahedra) kept in fixed16 (low contrast)");
     EXPECT_EQ(to_text(choose_numerics(asset_of(20000, 10, 0.46))),
               "contrast 10, Poisson's ratio up to 0.46, 20000 tetrahedra: solved in float32 (low contrast), "
               "preconditioned by block Jacobi (nearly incompressible)");
+    Asset stiff_path = with_a_stiff_path(1e6);
+    stiff_path.tools.resize(1);
+    EXPECT_EQ(
+        to_text(choose_numerics(stiff_path)),
+        "contrast 1e+06 (1 against the path from tool to support), Poisson's ratio up to 0.3, 2 tetrahedra: "
+        "solved in float32 (stiff path), preconditioned by the factor of the rest state (few tetrahedra) "
+        "kept "
+        "in float32 (high contrast)");
     const Numerics hard = choose_numerics(asset_of(20000, 1e8, 0.3));
     EXPECT_STREQ(to_string(hard.arithmetic), "float64");
     EXPECT_STREQ(to_string(hard.factor_storage), "float64");

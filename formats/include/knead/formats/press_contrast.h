@@ -12,6 +12,7 @@
 #include "knead/formats/asset.h"
 
 namespace knead {
+namespace detail {
 
 /// How the nodes of an asset hang together while its tetrahedra are added one after the other: which of them
 /// the fixed nodes hold by now. Union-find; the members of a set are linked in a ring.
@@ -78,6 +79,8 @@ class HeldNodes {
     std::uint32_t fixed_;  ///< the first fixed node stands for all of them
 };
 
+}  // namespace detail
+
 /// The softest tetrahedron that the force of a tool cannot avoid on its way to what holds the object.
 ///
 /// The largest elasticity for which the tetrahedra of at least that elasticity connect every tool to the
@@ -94,7 +97,7 @@ class HeldNodes {
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
         return modulus(a) != modulus(b) ? modulus(a) > modulus(b) : a < b;
     });
-    HeldNodes held(asset);
+    detail::HeldNodes held(asset);
     for (const std::uint32_t t : order)
         held.add(asset.tetrahedra[t], modulus(t));
 

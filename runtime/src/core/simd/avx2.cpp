@@ -5,12 +5,13 @@
 #include "core/simd/factor_kernels.inl"
 #include "core/simd/field_kernels.inl"
 #include "core/simd/kernels.h"
+#include "core/simd/sparse_kernels.inl"
 
 namespace knead::core {
 
 extern const Kernels kAvx2Kernels;
 const Kernels kAvx2Kernels = {avx2::factor_kernels(), avx2::element_kernels<float>(),
                               avx2::element_kernels<double>(), avx2::field_kernels<float>(),
-                              avx2::field_kernels<double>()};
+                              avx2::field_kernels<double>(), avx2::sparse_kernels<float>(), avx2::sparse_kernels<double>()};
 
 }  // namespace knead::core

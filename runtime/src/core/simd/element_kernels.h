@@ -6,19 +6,24 @@
 
 namespace knead::core {
 
-/// The tetrahedra as the kernels read them: in blocks of `width`, each number of a block side by side.
+constexpr std::size_t kTetsInStrip = 3;
+
+/// The tetrahedra as the kernels read them: in blocks of `width` strips, each number of a block side by side.
 ///
-/// Lane l of block b is tetrahedron l * blocks + b, so that neighbours in the list, which share nodes, are
-/// not in the same block. Lanes without a tetrahedron have zero stiffness and the node behind the last one.
-/// S is float or double.
+/// A strip is a path of three tetrahedra, each sharing a face with the next (tet_strips.h): six nodes are
+/// read and written for them instead of twelve. Tetrahedron k of a strip has its nodes 0, k + 1, k + 2, k
+/// + 3. Lane l of block b is strip l * blocks + b, so that neighbours in the list, which share nodes, are not
+/// in the same block. Tetrahedra that are missing have zero gradients and zero stiffness, nodes that are
+/// missing are the one behind the last. S is float or double.
 template <class S>
 struct ElementArrays {
     std::size_t blocks = 0;
-    const std::int32_t* nodes = nullptr;  ///< [blocks][4][width] four times the node's index
-    const S* rest_inverse = nullptr;  ///< [blocks][9][width] row k: gradient of node k + 1's shape function
-    const S* lame_volume = nullptr;   ///< [blocks][2][width] mu, lambda times the volume
-    S* rotations = nullptr;           ///< [blocks][4][width] w, x, y, z: state
-    S* gradients = nullptr;           ///< [blocks][9][width] rows turned by the rotation: state
+    const std::int32_t* nodes = nullptr;  ///< [blocks][kTetsInStrip + 3][width] four times the node's index
+    /// [blocks][kTetsInStrip][9][width] row j: gradient of node k + j + 1's shape function
+    const S* rest_inverse = nullptr;
+    const S* lame_volume = nullptr;  ///< [blocks][kTetsInStrip][2][width] mu, lambda times the volume
+    S* rotations = nullptr;          ///< [blocks][kTetsInStrip][4][width] w, x, y, z: state
+    S* gradients = nullptr;          ///< [blocks][kTetsInStrip][9][width] rows turned by the rotation: state
 };
 
 /// Finds the rotation of one deformation gradient from scratch (rotation.h), for lanes whose warm start

@@ -33,29 +33,73 @@ template <class S, int W>
 inline Matrices3<S, W> rotation_matrices(const Quaternions<S, W>& q) {
     using V = Vector<S, W>;
     const V x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
-    const V xx = x2 * q.x, yy = y2 * q.y, zz = z2 * q.z;
-    const V xy = x2 * q.y, xz = x2 * q.z, yz = y2 * q.z;
     const V wx = x2 * q.w, wy = y2 * q.w, wz = z2 * q.w;
-    const V one = broadcast<V>(S(1));
-    return {
-        {one - yy - zz, xy - wz, xz + wy, xy + wz, one - xx - zz, yz - wx, xz - wy, yz + wx, one - xx - yy}};
+    const V without_x = S(1) - x2 * q.x, without_xy = without_x - y2 * q.y;
+    return {{S(1) - y2 * q.y - z2 * q.z, x2 * q.y - wz, x2 * q.z + wy,  //
+             x2 * q.y + wz, without_x - z2 * q.z, y2 * q.z - wx,        //
+             x2 * q.z - wy, y2 * q.z + wx, without_xy}};
 }
 
-/// q * (1, turn / 2), normalised.
+/// q * (1, half), normalised.
 template <class S, int W>
-inline Quaternions<S, W> turned(const Quaternions<S, W>& q, const Vectors3<S, W>& turn) {
+inline Quaternions<S, W> turned(const Quaternions<S, W>& q, const Vectors3<S, W>& half) {
     using V = Vector<S, W>;
-    const V x = S(0.5) * turn.x, y = S(0.5) * turn.y, z = S(0.5) * turn.z;
+    const auto& [x, y, z] = half;
     Quaternions<S, W> r{q.w - q.x * x - q.y * y - q.z * z, q.x + q.w * x + q.y * z - q.z * y,
                         q.y + q.w * y + q.z * x - q.x * z, q.z + q.w * z + q.x * y - q.y * x};
     // 1 / sqrt(1 + excess) by its series: what is left after a large turn goes with the next, small one.
-    const V excess = r.w * r.w + r.x * r.x + r.y * r.y + r.z * r.z - S(1);
+    const V excess = r.w * r.w + r.x * r.x + r.y * r.y + (r.z * r.z - S(1));
     const V scale = S(1) - excess * (S(0.5) - S(0.375) * excess);
-    r.w *= scale;
-    r.x *= scale;
-    r.y *= scale;
-    r.z *= scale;
-    return r;
+    return {r.w * scale, r.x * scale, r.y * scale, r.z * scale};
+}
+
+/// What one Newton step says.
+template <class S, int W>
+struct Turns {
+    Vectors3<S, W> half;       ///< half the turn, radians
+    Vector<S, W> half2;        ///< its square
+    Vector<S, W> determinant;  ///< of the Hessian, less the least that is accepted
+    Vector<S, W> minor1, minor2;
+    Vector<S, W> trace;  ///< of R^T F after the turn, but for a third power of it
+};
+
+/// One Newton step of the analytic polar decomposition (rotation.h) from rotation r: the maximum of the
+/// second-order expansion tr(R exp([w])^T F) = tr(B) + w . g - w . H w / 2.
+template <class S, int W>
+inline Turns<S, W> newton_step(const Matrices3<S, W>& f, const Matrices3<S, W>& r) {
+    using V = Vector<S, W>;
+    Matrices3<S, W> b;  // R^T F
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j)
+            b(i, j) = r(0, i) * f(0, j) + r(1, i) * f(1, j) + r(2, i) * f(2, j);
+    }
+    const V gx = b(2, 1) - b(1, 2), gy = b(0, 2) - b(2, 0), gz = b(1, 0) - b(0, 1);
+    const V hxx = b(1, 1) + b(2, 2), hyy = b(0, 0) + b(2, 2), hzz = b(0, 0) + b(1, 1);
+    const V hxy = S(-0.5) * (b(0, 1) + b(1, 0)), hxz = S(-0.5) * (b(0, 2) + b(2, 0)),
+            hyz = S(-0.5) * (b(1, 2) + b(2, 1));
+    const V cxx = hyy * hzz - hyz * hyz, cxy = hxz * hyz - hxy * hzz, cxz = hxy * hyz - hxz * hyy;
+    const V cyy = hxx * hzz - hxz * hxz, cyz = hxy * hxz - hxx * hyz, czz = hxx * hyy - hxy * hxy;
+    const V determinant = hxx * cxx + hxy * cxy + hxz * cxz;
+    const V trace = hxx + b(0, 0);
+    const V half_inverse = S(0.5) / determinant;
+    Turns<S, W> result;
+    result.half = {(cxx * gx + cxy * gy + cxz * gz) * half_inverse,
+                   (cxy * gx + cyy * gy + cyz * gz) * half_inverse,
+                   (cxz * gx + cyz * gy + czz * gz) * half_inverse};
+    const auto& [x, y, z] = result.half;
+    result.half2 = x * x + y * y + z * z;
+    result.determinant = determinant - (8 * kSingularHessian<S> * trace) * (trace * trace);
+    result.minor1 = hxx;
+    result.minor2 = czz;
+    result.trace = trace + (x * gx + y * gy + z * gz);
+    return result;
+}
+
+/// Whether the Hessian is positive definite (Sylvester's criterion): only there is the maximum the global
+/// one.
+template <class S, int W>
+inline auto is_definite(const Turns<S, W>& turn) {
+    return (turn.determinant > S(0)) & (turn.minor1 > S(0)) & (turn.minor2 > S(0));
 }
 
 template <class S, int W>
@@ -70,42 +114,21 @@ void fall_back(const Matrices3<S, W>& f, Quaternions<S, W>& q, int lane, Rotatio
     q.z[lane] = quaternion[3];
 }
 
-/// Analytic polar decomposition (rotation.h): Newton steps from the last rotation, accepted only where the
-/// Hessian is positive definite, because there the maximum is the global one.
+/// Newton steps until all lanes are done; lanes where they lead nowhere fall back.
 template <class S, int W>
-inline void find_rotations(const Matrices3<S, W>& f, Quaternions<S, W>& q, RotationFallback<S> fallback) {
+[[gnu::noinline]] void find_rotations(const Matrices3<S, W>& f, Quaternions<S, W>& q,
+                                      RotationFallback<S> fallback) {
     using V = Vector<S, W>;
     for (int step = 0; step < kNewtonSteps; ++step) {
-        const Matrices3<S, W> r = rotation_matrices(q);
-        Matrices3<S, W> b;  // R^T F
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j)
-                b(i, j) = r(0, i) * f(0, j) + r(1, i) * f(1, j) + r(2, i) * f(2, j);
-        }
-        // tr(R exp([w])^T F) = tr(B) + w . g - w . H w / 2 + ...
-        const V gx = b(2, 1) - b(1, 2), gy = b(0, 2) - b(2, 0), gz = b(1, 0) - b(0, 1);
-        const V hxx = b(1, 1) + b(2, 2), hyy = b(0, 0) + b(2, 2), hzz = b(0, 0) + b(1, 1);
-        const V hxy = S(-0.5) * (b(0, 1) + b(1, 0)), hxz = S(-0.5) * (b(0, 2) + b(2, 0)),
-                hyz = S(-0.5) * (b(1, 2) + b(2, 1));
-        const V cxx = hyy * hzz - hyz * hyz, cxy = hxz * hyz - hxy * hzz, cxz = hxy * hyz - hxz * hyy;
-        const V cyy = hxx * hzz - hxz * hxz, cyz = hxy * hxz - hxx * hyz, czz = hxx * hyy - hxy * hxy;
-        const V determinant = hxx * cxx + hxy * cxy + hxz * cxz;
-        const V size = hxx + hyy + hzz;
-        // Sylvester's criterion.
-        const auto definite =
-            (hxx > S(0)) & (czz > S(0)) & (determinant > kSingularHessian<S> * size * size * size);
-        const V inverse = S(1) / determinant;
-        Vectors3<S, W> turn{(cxx * gx + cxy * gy + cxz * gz) * inverse,
-                            (cxy * gx + cyy * gy + cyz * gz) * inverse,
-                            (cxz * gx + cyz * gy + czz * gz) * inverse};
-        const V turned2 = turn.x * turn.x + turn.y * turn.y + turn.z * turn.z;
-        const auto valid = definite & (turned2 < kLargeTurn<S> * kLargeTurn<S>);
+        const Turns<S, W> turn = newton_step(f, rotation_matrices(q));
+        const auto valid = is_definite(turn) & (turn.half2 < kLargeTurn<S> * kLargeTurn<S> / 4);
+        const auto done = valid & (turn.half2 < kSmallTurn<S> * kSmallTurn<S> / 4);
         const V zero{};
-        turn = {valid ? turn.x : zero, valid ? turn.y : zero, valid ? turn.z : zero};
-        q = turned(q, turn);
-        const auto done = valid & (turned2 < kSmallTurn<S> * kSmallTurn<S>);
+        q = turned<S, W>(
+            q, {valid ? turn.half.x : zero, valid ? turn.half.y : zero, valid ? turn.half.z : zero});
         if (all(done)) return;
         const bool last = step == kNewtonSteps - 1;
+        if (!last && all(valid)) continue;
         for (int lane = 0; lane < W; ++lane) {
             if (!valid[lane] || (last && !done[lane])) fall_back(f, q, lane, fallback);
         }
@@ -113,31 +136,96 @@ inline void find_rotations(const Matrices3<S, W>& f, Quaternions<S, W>& q, Rotat
     }
 }
 
+/// The rotations nearest to f and tr(R^T F).
 template <class S, int W>
-struct Corners {
-    Vectors3<S, W> edge[3];  // node k + 1 minus node 0
+struct Rotated {
+    Matrices3<S, W> r;
+    Vector<S, W> trace;
 };
 
 template <class S, int W>
-inline Corners<S, W> gather_edges(const S* field, const std::int32_t* nodes) {
-    const Vectors3<S, W> origin = gather<S, W>(field, nodes);
-    Corners<S, W> result;
-    for (int k = 0; k < 3; ++k) {
-        const Vectors3<S, W> corner = gather<S, W>(field, nodes + (k + 1) * W);
-        result.edge[k] = {corner.x - origin.x, corner.y - origin.y, corner.z - origin.z};
+inline Rotated<S, W> rotate(const Matrices3<S, W>& f, S* state, RotationFallback<S> fallback) {
+    using V = Vector<S, W>;
+    Quaternions<S, W> q{load<V>(state), load<V>(state + W), load<V>(state + 2 * W), load<V>(state + 3 * W)};
+    const Turns<S, W> turn = newton_step(f, rotation_matrices(q));
+    Rotated<S, W> result;
+    const auto done = is_definite(turn) & (turn.half2 < kSmallTurn<S> * kSmallTurn<S> / 4);
+    if (all(done)) [[likely]] {
+        q = turned(q, turn.half);
+        result.r = rotation_matrices(q);
+        result.trace = turn.trace;
+    } else {
+        find_rotations(f, q, fallback);
+        result.r = rotation_matrices(q);
+        result.trace = V{};
+        for (int k = 0; k < 9; ++k)
+            result.trace += result.r.m[k] * f.m[k];
     }
+    store(state, q.w);
+    store(state + W, q.x);
+    store(state + 2 * W, q.y);
+    store(state + 3 * W, q.z);
     return result;
 }
 
-/// Adds f[k] to node k + 1 and takes their sum from node 0.
+/// From node 0 of a strip to three following ones: those of one tetrahedron.
 template <class S, int W>
-inline void scatter_forces(const Vectors3<S, W> (&f)[3], const std::int32_t* nodes, S* field) {
-    for (int k = 0; k < 3; ++k)
-        scatter_add<S, W>(f[k], nodes + (k + 1) * W, field);
-    const Vectors3<S, W> rest{-(f[0].x + f[1].x + f[2].x), -(f[0].y + f[1].y + f[2].y),
-                              -(f[0].z + f[1].z + f[2].z)};
-    scatter_add<S, W>(rest, nodes, field);
+using Edges = Vectors3<S, W>[3];
+
+template <class S, int W>
+inline Vectors3<S, W> gather_edge(const S* field, const Vectors3<S, W>& origin, const std::int32_t* nodes) {
+    const Vectors3<S, W> corner = gather<S, W>(field, nodes);
+    return {corner.x - origin.x, corner.y - origin.y, corner.z - origin.z};
 }
+
+/// use(k, edges) for every tetrahedron k of a strip. Every node is read once, and not before it is needed.
+template <class S, int W, class Use>
+inline void for_edges_of_strip(const S* field, const std::int32_t* nodes, Use&& use) {
+    const Vectors3<S, W> origin = gather<S, W>(field, nodes);
+    Edges<S, W> edges;
+    edges[1] = gather_edge<S, W>(field, origin, nodes + W);
+    edges[2] = gather_edge<S, W>(field, origin, nodes + 2 * W);
+#pragma GCC unroll 8
+    for (std::size_t k = 0; k < kTetsInStrip; ++k) {
+        edges[0] = edges[1];
+        edges[1] = edges[2];
+        edges[2] = gather_edge<S, W>(field, origin, nodes + (k + 3) * W);
+        use(k, edges);
+    }
+}
+
+/// Sums the forces on the nodes of a strip and adds each sum to its node as soon as it is complete.
+template <class S, int W>
+class StripForces {
+  public:
+    StripForces(const std::int32_t* nodes, S* field) : nodes_(nodes), field_(field) {}
+
+    /// Forces on nodes k + 1, k + 2, k + 3, for k = 0, 1, ...; minus their sum is the one on node 0.
+    void add(std::size_t k, const Vectors3<S, W> (&force)[3]) {
+        complete(k, plus(force[0], next_[0]));
+        next_[0] = plus(force[1], next_[1]);
+        next_[1] = force[2];
+    }
+    void finish() {
+        complete(kTetsInStrip, next_[0]);
+        complete(kTetsInStrip + 1, next_[1]);
+        scatter_add<S, W>({-sum_.x, -sum_.y, -sum_.z}, nodes_, field_);
+    }
+
+  private:
+    static Vectors3<S, W> plus(const Vectors3<S, W>& a, const Vectors3<S, W>& b) {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    void complete(std::size_t k, const Vectors3<S, W>& force) {
+        sum_ = plus(sum_, force);
+        scatter_add<S, W>(force, nodes_ + (k + 1) * W, field_);
+    }
+
+    const std::int32_t* nodes_;
+    S* field_;
+    Vectors3<S, W> next_[2] = {};
+    Vectors3<S, W> sum_ = {};
+};
 
 template <class S, int W>
 inline Matrices3<S, W> load_matrices(const S* from) {
@@ -147,85 +235,79 @@ inline Matrices3<S, W> load_matrices(const S* from) {
     return result;
 }
 
-/// Sum over k of edge[k] (outer) row k of `gradients`.
+/// Sum over k of edge k (outer) row k of `gradients`.
 template <class S, int W>
-inline Matrices3<S, W> gradient_of(const Corners<S, W>& u, const Matrices3<S, W>& gradients) {
+inline Matrices3<S, W> gradient_of(const Edges<S, W>& u, const Matrices3<S, W>& gradients) {
     Matrices3<S, W> result;
     for (int j = 0; j < 3; ++j) {
-        result(0, j) =
-            u.edge[0].x * gradients(0, j) + u.edge[1].x * gradients(1, j) + u.edge[2].x * gradients(2, j);
-        result(1, j) =
-            u.edge[0].y * gradients(0, j) + u.edge[1].y * gradients(1, j) + u.edge[2].y * gradients(2, j);
-        result(2, j) =
-            u.edge[0].z * gradients(0, j) + u.edge[1].z * gradients(1, j) + u.edge[2].z * gradients(2, j);
+        result(0, j) = u[0].x * gradients(0, j) + u[1].x * gradients(1, j) + u[2].x * gradients(2, j);
+        result(1, j) = u[0].y * gradients(0, j) + u[1].y * gradients(1, j) + u[2].y * gradients(2, j);
+        result(2, j) = u[0].z * gradients(0, j) + u[1].z * gradients(1, j) + u[2].z * gradients(2, j);
     }
     return result;
 }
 
 /// Blocks that go through one stage before the next begins: enough that loads do not wait for the stores
 /// just made, few enough for the level-1 cache.
-constexpr std::size_t kStage = 8;
+constexpr std::size_t kStage = 2;
 
+/// Row k: the force on node k + 1; stores the turned gradients.
 template <class S, int W>
-inline void stress_and_scatter(const ElementArrays<S>& elements, std::size_t block, S scale,
-                               const Matrices3<S, W>& f, S* forces) {
+inline void forces_of(const ElementArrays<S>& elements, std::size_t slot, S scale, const Matrices3<S, W>& f,
+                      const Rotated<S, W>& rotated, Vectors3<S, W> (&force)[3]) {
     using V = Vector<S, W>;
-    const S* const quaternion = elements.rotations + block * 4 * W;
-    const Quaternions<S, W> q{load<V>(quaternion), load<V>(quaternion + W), load<V>(quaternion + 2 * W),
-                              load<V>(quaternion + 3 * W)};
-    const Matrices3<S, W> r = rotation_matrices(q);
-    const V mu = scale * load<V>(elements.lame_volume + block * 2 * W);
-    const V lambda = scale * load<V>(elements.lame_volume + (block * 2 + 1) * W);
-    V stretch = broadcast<V>(S(-3));
-    for (int k = 0; k < 9; ++k)
-        stretch += r.m[k] * f.m[k];
+    const V two_mu = (2 * scale) * load<V>(elements.lame_volume + slot * 2 * W);
+    const V lambda = scale * load<V>(elements.lame_volume + (slot * 2 + 1) * W);
     // Minus the stress times the volume: the force of a node is this times its gradient.
-    const V turned_part = S(2) * mu - lambda * stretch;
-    const V strained_part = S(-2) * mu;
+    const V turned_part = two_mu - lambda * (rotated.trace - S(3));
     Matrices3<S, W> p;
     for (int k = 0; k < 9; ++k)
-        p.m[k] = strained_part * f.m[k] + turned_part * r.m[k];
-    const Matrices3<S, W> b = load_matrices<S, W>(elements.rest_inverse + block * 9 * W);
-    S* const gradients = elements.gradients + block * 9 * W;
-    Vectors3<S, W> force[3];
+        p.m[k] = turned_part * rotated.r.m[k] - two_mu * f.m[k];
+    const Matrices3<S, W> b = load_matrices<S, W>(elements.rest_inverse + slot * 9 * W);
+    S* const gradients = elements.gradients + slot * 9 * W;
     for (int k = 0; k < 3; ++k) {
         const auto times = [&](const Matrices3<S, W>& m, int row) {
             return m(row, 0) * b(k, 0) + m(row, 1) * b(k, 1) + m(row, 2) * b(k, 2);
         };
         force[k] = {times(p, 0), times(p, 1), times(p, 2)};
         for (int j = 0; j < 3; ++j)
-            store(gradients + (3 * k + j) * W, times(r, j));
+            store(gradients + (3 * k + j) * W, times(rotated.r, j));
     }
-    scatter_forces<S, W>(force, elements.nodes + block * 4 * W, forces);
 }
 
 template <class S>
 void linearise(const ElementArrays<S>& elements, S scale, const S* u, S* forces,
                RotationFallback<S> fallback) {
     constexpr int W = kLanes<S>;
-    using V = Vector<S, W>;
-    Matrices3<S, W> f[kStage];
+    constexpr std::size_t N = kTetsInStrip;
+    Matrices3<S, W> f[kStage * N];
+    Rotated<S, W> rotated[kStage * N];
     for (std::size_t first = 0; first < elements.blocks; first += kStage) {
         const std::size_t count = first + kStage < elements.blocks ? kStage : elements.blocks - first;
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t block = first + k;
-            const Corners<S, W> corners = gather_edges<S, W>(u, elements.nodes + block * 4 * W);
-            f[k] = gradient_of(corners, load_matrices<S, W>(elements.rest_inverse + block * 9 * W));
-            for (int i = 0; i < 3; ++i)
-                f[k](i, i) += S(1);
+            for_edges_of_strip<S, W>(
+                u, elements.nodes + block * (N + 3) * W, [&](std::size_t t, const Edges<S, W>& edges) {
+                    Matrices3<S, W>& to = f[k * N + t];
+                    to = gradient_of<S, W>(
+                        edges, load_matrices<S, W>(elements.rest_inverse + (block * N + t) * 9 * W));
+                    for (int i = 0; i < 3; ++i)
+                        to(i, i) += S(1);
+                });
         }
+        for (std::size_t k = 0; k < count * N; ++k)
+            rotated[k] = rotate(f[k], elements.rotations + (first * N + k) * 4 * W, fallback);
         for (std::size_t k = 0; k < count; ++k) {
-            S* const state = elements.rotations + (first + k) * 4 * W;
-            Quaternions<S, W> q{load<V>(state), load<V>(state + W), load<V>(state + 2 * W),
-                                load<V>(state + 3 * W)};
-            find_rotations(f[k], q, fallback);
-            store(state, q.w);
-            store(state + W, q.x);
-            store(state + 2 * W, q.y);
-            store(state + 3 * W, q.z);
+            const std::size_t block = first + k;
+            StripForces<S, W> sums(elements.nodes + block * (N + 3) * W, forces);
+#pragma GCC unroll 8
+            for (std::size_t t = 0; t < N; ++t) {
+                Vectors3<S, W> force[3];
+                forces_of<S, W>(elements, block * N + t, scale, f[k * N + t], rotated[k * N + t], force);
+                sums.add(t, force);
+            }
+            sums.finish();
         }
-        for (std::size_t k = 0; k < count; ++k)
-            stress_and_scatter<S, W>(elements, first + k, scale, f[k], forces);
     }
 }
 
@@ -233,23 +315,30 @@ template <class S>
 void apply_stiffness(const ElementArrays<S>& elements, S scale, const S* u, S* out) {
     constexpr int W = kLanes<S>;
     using V = Vector<S, W>;
+    constexpr std::size_t N = kTetsInStrip;
     for (std::size_t block = 0; block < elements.blocks; ++block) {
-        const std::int32_t* const nodes = elements.nodes + block * 4 * W;
-        const Matrices3<S, W> g = load_matrices<S, W>(elements.gradients + block * 9 * W);
-        const Matrices3<S, W> h = gradient_of(gather_edges<S, W>(u, nodes), g);
-        const V mu = scale * load<V>(elements.lame_volume + block * 2 * W);
-        const V pressure =
-            scale * load<V>(elements.lame_volume + (block * 2 + 1) * W) * (h(0, 0) + h(1, 1) + h(2, 2));
-        const V xx = S(2) * mu * h(0, 0) + pressure, yy = S(2) * mu * h(1, 1) + pressure,
-                zz = S(2) * mu * h(2, 2) + pressure;
-        const V xy = mu * (h(0, 1) + h(1, 0)), xz = mu * (h(0, 2) + h(2, 0)), yz = mu * (h(1, 2) + h(2, 1));
-        Vectors3<S, W> force[3];
-        for (int k = 0; k < 3; ++k) {
-            force[k] = {xx * g(k, 0) + xy * g(k, 1) + xz * g(k, 2),
-                        xy * g(k, 0) + yy * g(k, 1) + yz * g(k, 2),
-                        xz * g(k, 0) + yz * g(k, 1) + zz * g(k, 2)};
-        }
-        scatter_forces<S, W>(force, nodes, out);
+        const std::int32_t* const nodes = elements.nodes + block * (N + 3) * W;
+        StripForces<S, W> sums(nodes, out);
+        for_edges_of_strip<S, W>(u, nodes, [&](std::size_t t, const Edges<S, W>& edges) {
+            const std::size_t slot = block * N + t;
+            const Matrices3<S, W> g = load_matrices<S, W>(elements.gradients + slot * 9 * W);
+            const Matrices3<S, W> h = gradient_of<S, W>(edges, g);
+            const V mu = scale * load<V>(elements.lame_volume + slot * 2 * W);
+            const V pressure =
+                scale * load<V>(elements.lame_volume + (slot * 2 + 1) * W) * (h(0, 0) + h(1, 1) + h(2, 2));
+            const V xx = S(2) * mu * h(0, 0) + pressure, yy = S(2) * mu * h(1, 1) + pressure,
+                    zz = S(2) * mu * h(2, 2) + pressure;
+            const V xy = mu * (h(0, 1) + h(1, 0)), xz = mu * (h(0, 2) + h(2, 0)),
+                    yz = mu * (h(1, 2) + h(2, 1));
+            Vectors3<S, W> force[3];
+            for (int k = 0; k < 3; ++k) {
+                force[k] = {xx * g(k, 0) + xy * g(k, 1) + xz * g(k, 2),
+                            xy * g(k, 0) + yy * g(k, 1) + yz * g(k, 2),
+                            xz * g(k, 0) + yz * g(k, 1) + zz * g(k, 2)};
+            }
+            sums.add(t, force);
+        });
+        sums.finish();
     }
 }
 

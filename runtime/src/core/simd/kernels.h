@@ -4,6 +4,7 @@
 #include "core/simd/element_kernels.h"
 #include "core/simd/factor_kernels.h"
 #include "core/simd/field_kernels.h"
+#include "core/simd/sparse_kernels.h"
 
 namespace knead::core {
 
@@ -21,6 +22,8 @@ struct Kernels {
     ElementKernels<double> element_double;
     FieldKernels<float> field_float;
     FieldKernels<double> field_double;
+    SparseKernels<float> sparse_float;
+    SparseKernels<double> sparse_double;
 
     template <class S>
     [[nodiscard]] const ElementKernels<S>& element() const noexcept {
@@ -35,6 +38,13 @@ struct Kernels {
             return field_float;
         else
             return field_double;
+    }
+    template <class S>
+    [[nodiscard]] const SparseKernels<S>& sparse() const noexcept {
+        if constexpr (sizeof(S) == sizeof(float))
+            return sparse_float;
+        else
+            return sparse_double;
     }
 };
 

@@ -5,12 +5,13 @@
 #include "core/simd/factor_kernels.inl"
 #include "core/simd/field_kernels.inl"
 #include "core/simd/kernels.h"
+#include "core/simd/sparse_kernels.inl"
 
 namespace knead::core {
 
 extern const Kernels kPortableKernels;
 const Kernels kPortableKernels = {portable::factor_kernels(), portable::element_kernels<float>(),
                                   portable::element_kernels<double>(), portable::field_kernels<float>(),
-                                  portable::field_kernels<double>()};
+                                  portable::field_kernels<double>(), portable::sparse_kernels<float>(), portable::sparse_kernels<double>()};
 
 }  // namespace knead::core

@@ -83,10 +83,11 @@ inline Vector<S, W> load_groups(const S* from, const std::int32_t* nodes) {
         return node(from, nodes[0]);
 #ifdef __AVX512F__
     } else if constexpr (W == 16 && sizeof(S) == 4) {
+        // Loads that broadcast and blend leave the shuffle units alone.
         __m512 v = _mm512_castps128_ps512(node(from, nodes[0]));
-        v = _mm512_insertf32x4(v, node(from, nodes[4]), 1);
-        v = _mm512_insertf32x4(v, node(from, nodes[8]), 2);
-        return _mm512_insertf32x4(v, node(from, nodes[12]), 3);
+        v = _mm512_mask_broadcast_f32x4(v, 0x00f0, node(from, nodes[4]));
+        v = _mm512_mask_broadcast_f32x4(v, 0x0f00, node(from, nodes[8]));
+        return _mm512_mask_broadcast_f32x4(v, 0xf000, node(from, nodes[12]));
     } else if constexpr (W == 8 && sizeof(S) == 8) {
         return _mm512_insertf64x4(_mm512_castpd256_pd512(node(from, nodes[0])), node(from, nodes[4]), 1);
 #endif
@@ -122,13 +123,24 @@ inline bool all(M mask) {
     }
 }
 
+/// Lanes 4 * Group to 4 * Group + 3. With intrinsics because GCC would take a whole-register shuffle.
+template <int Group, class S, int W>
+inline Vector<S, 4> group_of(Vector<S, W> v) {
+#ifdef __AVX512F__
+    if constexpr (sizeof(v) == 64 && sizeof(S) == 4 && Group > 0)
+        return _mm512_extractf32x4_ps(v, Group);
+    else if constexpr (sizeof(v) == 64 && sizeof(S) == 8 && Group > 0)
+        return _mm512_extractf64x4_pd(v, Group);
+    else
+#endif
+        return group<4 * Group>(v, std::make_integer_sequence<int, 4>{});
+}
+
 /// Adds every group of four lanes to the numbers at to[nodes[0]], to[nodes[4]], ...
 template <class S, int W>
 inline void add_groups(Vector<S, W> v, const std::int32_t* nodes, S* to) {
     [&]<int... Group>(std::integer_sequence<int, Group...>) {
-        ((*reinterpret_cast<Vector<S, 4>*>(to + nodes[4 * Group]) +=
-          group<4 * Group>(v, std::make_integer_sequence<int, 4>{})),
-         ...);
+        ((*reinterpret_cast<Vector<S, 4>*>(to + nodes[4 * Group]) += group_of<Group, S, W>(v)), ...);
     }
     (std::make_integer_sequence<int, W / 4>{});
 }
@@ -154,18 +166,33 @@ inline Vectors3<S, W> gather(const S* field, const std::int32_t* nodes) {
             shuffle_groups<0, 1, 4, 5, W>(z01, z23)};
 }
 
+template <class S, int W, int... Lane>
+inline Vector<S, W> shuffle_fourth(Vector<S, W> v, std::integer_sequence<int, Lane...>) {
+    return __builtin_shufflevector(v, Vector<S, W>{}, (Lane % 4 == 3 ? Lane + W : Lane)...);
+}
+/// Zero in the last lane of every group of four.
+template <class S, int W>
+inline Vector<S, W> without_fourth(Vector<S, W> v) {
+#ifdef __AVX512F__
+    if constexpr (sizeof(v) == 64 && sizeof(S) == 4)
+        return _mm512_maskz_mov_ps(0x7777, v);
+    else if constexpr (sizeof(v) == 64)
+        return _mm512_maskz_mov_pd(0x77, v);
+    else
+#endif
+        return shuffle_fourth<S, W>(v, std::make_integer_sequence<int, W>{});
+}
+
 /// Adds three numbers to each of W nodes, one lane after the other: a node may stand in several lanes.
 template <class S, int W>
 inline void scatter_add(const Vectors3<S, W>& v, const std::int32_t* nodes, S* field) {
     using V = Vector<S, W>;
     const V xy01 = shuffle_groups<0, 4, 1, 5, W>(v.x, v.y);
     const V xy23 = shuffle_groups<2, 6, 3, 7, W>(v.x, v.y);
-    const V z01 = shuffle_groups<0, 4, 1, 5, W>(v.z, V{});
-    const V z23 = shuffle_groups<2, 6, 3, 7, W>(v.z, V{});
-    add_groups<S, W>(shuffle_groups<0, 1, 4, 5, W>(xy01, z01), nodes, field);
-    add_groups<S, W>(shuffle_groups<2, 3, 6, 7, W>(xy01, z01), nodes + 1, field);
-    add_groups<S, W>(shuffle_groups<0, 1, 4, 5, W>(xy23, z23), nodes + 2, field);
-    add_groups<S, W>(shuffle_groups<2, 3, 6, 7, W>(xy23, z23), nodes + 3, field);
+    add_groups<S, W>(without_fourth<S, W>(shuffle_groups<0, 1, 4, 4, W>(xy01, v.z)), nodes, field);
+    add_groups<S, W>(without_fourth<S, W>(shuffle_groups<2, 3, 5, 5, W>(xy01, v.z)), nodes + 1, field);
+    add_groups<S, W>(without_fourth<S, W>(shuffle_groups<0, 1, 6, 6, W>(xy23, v.z)), nodes + 2, field);
+    add_groups<S, W>(without_fourth<S, W>(shuffle_groups<2, 3, 7, 7, W>(xy23, v.z)), nodes + 3, field);
 }
 
 }  // namespace knead::core::KNEAD_SIMD

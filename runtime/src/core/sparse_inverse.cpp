@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sparse_inverse.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knead::core {
+namespace {
+
+/// Cholesky factor of the lower triangle, in place, row-major. @return false: not positive definite
+bool factor(double* a, std::size_t n) {
+    for (std::size_t j = 0; j < n; ++j) {
+        for (std::size_t i = j; i < n; ++i) {
+            double sum = a[i * n + j];
+            for (std::size_t k = 0; k < j; ++k)
+                sum -= a[i * n + k] * a[j * n + k];
+            if (i == j) {
+                if (!(sum > 0)) return false;
+                a[j * n + j] = std::sqrt(sum);
+            } else {
+                a[i * n + j] = sum / a[j * n + j];
+            }
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+template <class S>
+SparseInverse<S>::SparseInverse(const MatrixPattern& pattern, const Kernels& kernels)
+    : pattern_(pattern),
+      kernels_(kernels.sparse<S>()),
+      row_begin_(pattern.node_count + 1, 0),
+      upper_begin_(pattern.column_begin.begin(), pattern.column_begin.end()),
+      between_(pattern.node_count) {
+    // Columns of the lower triangle are the rows of the upper one.
+    for (const std::uint32_t row : pattern.row_nodes)
+        ++row_begin_[row + 1];
+    for (std::size_t i = 0; i < pattern.node_count; ++i) {
+        most_ = std::max<std::size_t>(most_, 3 * row_begin_[i + 1]);
+        row_begin_[i + 1] += row_begin_[i];
+    }
+    const std::size_t blocks = pattern.row_nodes.size();
+    nodes_.resize(blocks);
+    mirror_.resize(blocks);
+    lower_columns_.resize(blocks);
+    upper_columns_.resize(blocks);
+    std::vector<std::uint32_t> next(row_begin_.begin(), row_begin_.end() - 1);
+    for (std::uint32_t j = 0; j < pattern.node_count; ++j) {
+        for (std::uint32_t k = pattern.column_begin[j]; k < pattern.column_begin[j + 1]; ++k) {
+            const std::uint32_t at = next[pattern.row_nodes[k]]++;
+            nodes_[at] = j;
+            lower_columns_[at] = 4 * j;
+            mirror_[at] = k;
+            upper_columns_[k] = 4 * pattern.row_nodes[k];
+        }
+    }
+    lower_blocks_ = AlignedArray<S>(12 * blocks);
+    upper_blocks_ = AlignedArray<S>(12 * blocks);
+    small_.resize(most_ * most_);
+    solution_.resize(3 * most_);
+}
+
+template <class S>
+void SparseInverse<S>::make(const double* values, std::uint32_t first, std::uint32_t last) noexcept {
+    for (std::uint32_t row = first; row < last; ++row)
+        make_row(values, row);
+}
+
+/// Entry (r, c) of block (i, j), i >= j; zero where the pattern has none.
+template <class S>
+double SparseInverse<S>::value(const double* values, std::uint32_t i, std::uint32_t j, int r,
+                               int c) const noexcept {
+    const auto begin = pattern_.row_nodes.begin() + pattern_.column_begin[j];
+    const auto end = pattern_.row_nodes.begin() + pattern_.column_begin[j + 1];
+    const auto found = std::lower_bound(begin, end, i);
+    if (found == end || *found != i) return 0;
+    return values[9 * (found - pattern_.row_nodes.begin()) + 3 * c + r];
+}
+
+template <class S>
+void SparseInverse<S>::make_row(const double* values, std::uint32_t row) noexcept {
+    const std::uint32_t begin = row_begin_[row];
+    const std::size_t count = row_begin_[row + 1] - begin, n = 3 * count;
+    for (std::size_t a = 0; a < count; ++a) {
+        for (std::size_t b = 0; b <= a; ++b) {
+            for (int r = 0; r < 3; ++r) {
+                for (int c = 0; c < 3; ++c) {
+                    small_[(3 * a + static_cast<std::size_t>(r)) * n + 3 * b + static_cast<std::size_t>(c)] =
+                        value(values, nodes_[begin + a], nodes_[begin + b], r, c);
+                }
+            }
+        }
+    }
+    // A matrix that is positive definite is so over any nodes; if rounding says otherwise, the old row stays.
+    if (!factor(small_.data(), n)) return;
+    // Row block of G, transposed: the last three columns of L^-T.
+    for (std::size_t column = 0; column < 3; ++column) {
+        double* const x = solution_.data() + column * n;
+        for (std::size_t i = n; i-- > 0;) {
+            double sum = i == n - 3 + column ? 1 : 0;
+            for (std::size_t k = i + 1; k < n; ++k)
+                sum -= small_[k * n + i] * x[k];
+            x[i] = sum / small_[i * n + i];
+        }
+    }
+    for (std::size_t a = 0; a < count; ++a) {
+        S* const lower = lower_blocks_.data() + 12 * (begin + a);
+        S* const upper = upper_blocks_.data() + std::size_t{12} * mirror_[begin + a];
+        for (std::size_t r = 0; r < 3; ++r) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const auto g = static_cast<S>(solution_[r * n + 3 * a + c]);  // G(r, c)
+                lower[4 * c + r] = g;
+                upper[4 * r + c] = g;
+            }
+        }
+    }
+}
+
+template <class S>
+void SparseInverse<S>::apply(const NodeField<S>& v, NodeField<S>& out) const noexcept {
+    const std::size_t rows = pattern_.node_count;
+    kernels_.multiply({rows, row_begin_.data(), lower_columns_.data(), lower_blocks_.data()}, v.data(),
+                      between_.data());
+    kernels_.multiply({rows, upper_begin_.data(), upper_columns_.data(), upper_blocks_.data()},
+                      between_.data(), out.data());
+}
+
+template class SparseInverse<float>;
+template class SparseInverse<double>;
+
+}  // namespace knead::core
