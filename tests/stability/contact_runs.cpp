@@ -78,15 +78,17 @@ Record run_runtime(const ContactScene& scene, const Motion& motion, double dt_s,
     for (std::size_t t = 0; t < scene.asset.tools.size(); ++t)
         config.tools.push_back(t);
     config.with_torque = true;
-    if (getenv("KP")) {config.arithmetic = Arithmetic::float64; config.force_tolerance=1e-8;config.max_contact_passes=1000;}
     Result<Simulation> created = Simulation::create(scene.asset, config);
     Record run;
     if (!created.ok()) throw std::runtime_error(created.error().text());
     Simulation simulation = std::move(created).value();
     const std::vector<Pose> rest = rest_poses(scene.asset);
+    Eigen::Matrix3Xd velocities(3, static_cast<Eigen::Index>(simulation.node_count()));
     for (int k = 1; k <= steps; ++k) {
         const std::vector<Pose> poses = motion(rest, k * dt_s);
-        run.status.push_back(simulation.step(poses.data(), dt_s).status);
+        run.status |= simulation.step(poses.data(), dt_s).status;
+        simulation.velocities_m_per_s(velocities.data());
+        run.speed_m_per_s.push_back(velocities.colwise().norm().maxCoeff());
         run.steps.emplace_back();
         for (std::size_t t = 0; t < poses.size(); ++t) {
             const ToolResult& result = simulation.tool(t);
@@ -130,7 +132,7 @@ Record run_reference(const ContactScene& scene, const Motion& motion, double dt_
                 ? problem.step(state, scene.held, tools, dt_s, limits)
                 : problem.linearised_step(state, scene.held, tools, dt_s, where_velocity_leads, limits);
         state = solution.state;
-        run.let_slide += solution.let_slide;
+        if (solution.let_slide > 0 && run.slid_at == 0) run.slid_at = k;
         run.steps.emplace_back();
         for (std::size_t t = 0; t < tools.size(); ++t) {
             const tools::ToolReaction& reaction = solution.tools[t];
@@ -147,17 +149,15 @@ Record run_reference(const ContactScene& scene, const Motion& motion, double dt_
     return run;
 }
 
-Difference difference(const Record& run, const Record& truth, std::size_t tool) {
+Difference difference(const Record& run, const Record& truth, std::size_t tool, int until) {
     Difference d;
-    double largest_torque = 0, torque_error = 0;
-    double force = 0, same = 0, since = 0;
+    const int end = until > 0 ? until - 1 : static_cast<int>(truth.steps.size());
     int apart = 0;
-    for (std::size_t k = 0; k < truth.steps.size(); ++k) {
-        const ToolSample& a = run.steps[k][tool];
-        const ToolSample& b = truth.steps[k][tool];
+    int same_for = 0;
+    for (int k = 0; k < end; ++k) {
+        const ToolSample& a = run.steps[static_cast<std::size_t>(k)][tool];
+        const ToolSample& b = truth.steps[static_cast<std::size_t>(k)][tool];
         d.largest_force_n = std::max(d.largest_force_n, b.force_n.norm());
-        largest_torque = std::max(largest_torque, b.torque_n_m.norm());
-        torque_error = std::max(torque_error, (a.torque_n_m - b.torque_n_m).norm());
         std::vector<std::uint32_t> odd;
         std::set_symmetric_difference(a.touched.begin(), a.touched.end(), b.touched.begin(),
                                       b.touched.end(), std::back_inserter(odd));
@@ -166,27 +166,32 @@ Difference difference(const Record& run, const Record& truth, std::size_t tool) 
         apart = odd.empty() ? 0 : apart + 1;
         d.steps_apart += odd.empty() ? 0 : 1;
         d.longest_apart = std::max(d.longest_apart, apart);
-        const double error = (a.force_n - b.force_n).norm();
-        if (error > force) d.worst_step = static_cast<int>(k) + 1;
-        force = std::max(force, error);
-        if (odd.empty()) same = std::max(same, error);
-        if (d.steps_apart == 0) since = std::max(since, error);
+        const bool as_before =
+            k > 0 && odd.empty() && b.touched == truth.steps[static_cast<std::size_t>(k) - 1][tool].touched;
+        same_for = as_before ? same_for + 1 : 0;
+        const double force = (a.force_n - b.force_n).norm();
+        const double torque = (a.torque_n_m - b.torque_n_m).norm();
+        if (force > d.force) d.worst_step = k + 1;
+        d.force = std::max(d.force, force);
+        d.torque = std::max(d.torque, torque);
+        if (same_for < kSettledSteps) continue;
+        d.settled_force = std::max(d.settled_force, force);
+        d.settled_torque = std::max(d.settled_torque, torque);
     }
-    if (d.largest_force_n > 0) {
-        d.force = force / d.largest_force_n;
-        d.force_while_same = same / d.largest_force_n;
-        d.force_since_same = since / d.largest_force_n;
-    }
-    if (largest_torque > 0) d.torque = torque_error / largest_torque;
+    if (d.largest_force_n == 0) return d;
+    d.force /= d.largest_force_n;
+    d.settled_force /= d.largest_force_n;
+    d.torque /= d.largest_force_n * kCubeSideM / 2;
+    d.settled_torque /= d.largest_force_n * kCubeSideM / 2;
     return d;
 }
 
 std::string text(const Difference& d) {
     return fmt::format(
-        "largest force {:.3f} N; force error {:.1e} (step {}), same sets {:.1e}, before sets first differ "
-        "{:.1e}; torque error {:.1e}; sets differ in {} of {} steps, {} in a row, by {} nodes",
-        d.largest_force_n, d.force, d.worst_step, d.force_while_same, d.force_since_same, d.torque,
-        d.steps_apart, d.touching_steps, d.longest_apart, d.most_apart);
+        "{:.3f} N; force {:.1e} (step {}), settled {:.1e}; torque {:.1e}, settled {:.1e}; sets differ in {} of "
+        "{} steps, {} in a row, by {} nodes",
+        d.largest_force_n, d.force, d.worst_step, d.settled_force, d.torque, d.settled_torque, d.steps_apart,
+        d.touching_steps, d.longest_apart, d.most_apart);
 }
 
 }  // namespace knead::test

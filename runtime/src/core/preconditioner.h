@@ -46,7 +46,9 @@ class Preconditioner {
     /// Largest squared error of a tool's force for a unit of squared energy error, N^2 / (kg m^2).
     [[nodiscard]] Real force_sensitivity(const System<S>& system, std::size_t tool) const noexcept;
 
-    [[nodiscard]] Real dt_s() const noexcept { return dt_s_; }
+    /// Whether it is near enough to the inverse for r^T P r to be a fair measure of the error, as far as dt
+    /// matters.
+    [[nodiscard]] bool is_close(Real dt_s) const noexcept;
     [[nodiscard]] std::size_t factor_bytes() const noexcept;
 
   private:

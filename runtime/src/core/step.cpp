@@ -303,9 +303,10 @@ void TypedStepper<S>::linearise(const System<S>& system) noexcept {
 
 template <class S>
 std::uint32_t TypedStepper<S>::solve_with_contact(const System<S>& system) noexcept {
-    const Real drift = trusts_preconditioner_ ? kVelocityTolerance_m_per_s : kHardVelocityTolerance_m_per_s;
+    const bool trusts = trusts_preconditioner_ && preconditioner_.is_close(system.dt_s);
+    const Real drift = trusts ? kVelocityTolerance_m_per_s : kHardVelocityTolerance_m_per_s;
     const SolverLimits limits{config_.max_solver_iterations, config_.force_tolerance,
-                              std::min<Real>(drift, config_.force_tolerance), trusts_preconditioner_};
+                              std::min<Real>(drift, config_.force_tolerance), trusts};
     solution_.displacement.nodes.fill_zero();
     solution_.from_zero = true;
     std::fill(solution_.displacement.tools.begin(), solution_.displacement.tools.end(), Vec::Zero());

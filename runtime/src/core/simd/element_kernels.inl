@@ -136,36 +136,33 @@ template <class S, int W>
     }
 }
 
-/// The rotations nearest to f and tr(R^T F).
 template <class S, int W>
-struct Rotated {
-    Matrices3<S, W> r;
-    Vector<S, W> trace;
-};
-
-template <class S, int W>
-inline Rotated<S, W> rotate(const Matrices3<S, W>& f, S* state, RotationFallback<S> fallback) {
+inline Quaternions<S, W> load_quaternions(const S* from) {
     using V = Vector<S, W>;
-    Quaternions<S, W> q{load<V>(state), load<V>(state + W), load<V>(state + 2 * W), load<V>(state + 3 * W)};
+    return {load<V>(from), load<V>(from + W), load<V>(from + 2 * W), load<V>(from + 3 * W)};
+}
+
+/// Updates the rotations R nearest to f. @return tr(R^T F)
+template <class S, int W>
+inline Vector<S, W> update_rotations(const Matrices3<S, W>& f, S* state, RotationFallback<S> fallback) {
+    Quaternions<S, W> q = load_quaternions<S, W>(state);
     const Turns<S, W> turn = newton_step(f, rotation_matrices(q));
-    Rotated<S, W> result;
+    Vector<S, W> trace = turn.trace;
     const auto done = is_definite(turn) & (turn.half2 < kSmallTurn<S> * kSmallTurn<S> / 4);
     if (all(done)) [[likely]] {
         q = turned(q, turn.half);
-        result.r = rotation_matrices(q);
-        result.trace = turn.trace;
     } else {
         find_rotations(f, q, fallback);
-        result.r = rotation_matrices(q);
-        result.trace = V{};
+        const Matrices3<S, W> r = rotation_matrices(q);
+        trace = Vector<S, W>{};
         for (int k = 0; k < 9; ++k)
-            result.trace += result.r.m[k] * f.m[k];
+            trace += r.m[k] * f.m[k];
     }
     store(state, q.w);
     store(state + W, q.x);
     store(state + 2 * W, q.y);
     store(state + 3 * W, q.z);
-    return result;
+    return trace;
 }
 
 /// From node 0 of a strip to three following ones: those of one tetrahedron.
@@ -249,20 +246,22 @@ inline Matrices3<S, W> gradient_of(const Edges<S, W>& u, const Matrices3<S, W>& 
 
 /// Blocks that go through one stage before the next begins: enough that loads do not wait for the stores
 /// just made, few enough for the level-1 cache.
-constexpr std::size_t kStage = 2;
+constexpr std::size_t kStage = 4;
 
 /// Row k: the force on node k + 1; stores the turned gradients.
 template <class S, int W>
 inline void forces_of(const ElementArrays<S>& elements, std::size_t slot, S scale, const Matrices3<S, W>& f,
-                      const Rotated<S, W>& rotated, Vectors3<S, W> (&force)[3]) {
+                      Vector<S, W> trace, Vectors3<S, W> (&force)[3]) {
     using V = Vector<S, W>;
+    // Made again from the quaternions: as fast as nine more stores and loads.
+    const Matrices3<S, W> r = rotation_matrices(load_quaternions<S, W>(elements.rotations + slot * 4 * W));
     const V two_mu = (2 * scale) * load<V>(elements.lame_volume + slot * 2 * W);
     const V lambda = scale * load<V>(elements.lame_volume + (slot * 2 + 1) * W);
     // Minus the stress times the volume: the force of a node is this times its gradient.
-    const V turned_part = two_mu - lambda * (rotated.trace - S(3));
+    const V turned_part = two_mu - lambda * (trace - S(3));
     Matrices3<S, W> p;
     for (int k = 0; k < 9; ++k)
-        p.m[k] = turned_part * rotated.r.m[k] - two_mu * f.m[k];
+        p.m[k] = turned_part * r.m[k] - two_mu * f.m[k];
     const Matrices3<S, W> b = load_matrices<S, W>(elements.rest_inverse + slot * 9 * W);
     S* const gradients = elements.gradients + slot * 9 * W;
     for (int k = 0; k < 3; ++k) {
@@ -271,7 +270,7 @@ inline void forces_of(const ElementArrays<S>& elements, std::size_t slot, S scal
         };
         force[k] = {times(p, 0), times(p, 1), times(p, 2)};
         for (int j = 0; j < 3; ++j)
-            store(gradients + (3 * k + j) * W, times(rotated.r, j));
+            store(gradients + (3 * k + j) * W, times(r, j));
     }
 }
 
@@ -281,7 +280,7 @@ void linearise(const ElementArrays<S>& elements, S scale, const S* u, S* forces,
     constexpr int W = kLanes<S>;
     constexpr std::size_t N = kTetsInStrip;
     Matrices3<S, W> f[kStage * N];
-    Rotated<S, W> rotated[kStage * N];
+    Vector<S, W> trace[kStage * N];
     for (std::size_t first = 0; first < elements.blocks; first += kStage) {
         const std::size_t count = first + kStage < elements.blocks ? kStage : elements.blocks - first;
         for (std::size_t k = 0; k < count; ++k) {
@@ -296,14 +295,14 @@ void linearise(const ElementArrays<S>& elements, S scale, const S* u, S* forces,
                 });
         }
         for (std::size_t k = 0; k < count * N; ++k)
-            rotated[k] = rotate(f[k], elements.rotations + (first * N + k) * 4 * W, fallback);
+            trace[k] = update_rotations(f[k], elements.rotations + (first * N + k) * 4 * W, fallback);
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t block = first + k;
             StripForces<S, W> sums(elements.nodes + block * (N + 3) * W, forces);
 #pragma GCC unroll 8
             for (std::size_t t = 0; t < N; ++t) {
                 Vectors3<S, W> force[3];
-                forces_of<S, W>(elements, block * N + t, scale, f[k * N + t], rotated[k * N + t], force);
+                forces_of<S, W>(elements, block * N + t, scale, f[k * N + t], trace[k * N + t], force);
                 sums.add(t, force);
             }
             sums.finish();
