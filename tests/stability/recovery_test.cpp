@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
+#include <ostream>
+#include <stdexcept>
 
+#include "reference/implicit_euler.h"
 #include "stability/contact_scene.h"
 
 namespace knead::test {
@@ -49,12 +51,18 @@ double off_rest(const Asset& asset, const Simulation& simulation) {
 
 // What the issue asks for.
 constexpr double kOffRest = 1e-4;
+constexpr double kDampingPerS = 10;
 
 struct Crush {
     std::uint32_t cells;
     ToolContact contact;
     double press_s;
 };
+
+void PrintTo(const Crush& crush, std::ostream* out) {
+    *out << "n = " << crush.cells << ", contact " << static_cast<int>(crush.contact) << ", in " << crush.press_s
+         << " s";
+}
 
 class Crushed : public testing::TestWithParam<Crush> {};
 
@@ -65,6 +73,8 @@ TEST_P(Crushed, To_half_its_height_and_released_the_body_returns_to_its_rest_sha
     const auto [cells, contact, press_s] = GetParam();
     Asset asset = scenario_cube(cells);
     asset.tools = {tool_above(asset, ToolShape::plate, contact)};
+    // Let go of, a body without damping swings for long: that is right, and no rest to compare with.
+    if (contact != ToolContact::bonded) asset.damping_per_s = kDampingPerS;
     Simulation simulation = simulation_of(asset);
     const Pose rest = simulation.tool_rest_pose();
     const double end_s = 2 * press_s + kHoldS;
@@ -77,7 +87,7 @@ TEST_P(Crushed, To_half_its_height_and_released_the_body_returns_to_its_rest_sha
         const double depth = std::min(time_s / press_s, (end_s - time_s) / press_s);
         Pose pose = rest;
         pose.position_m[2] -= 0.5 * kCubeSideM * std::clamp(depth, 0.0, 1.0);
-        if (time_s > end_s && contact != ToolContact::bonded) pose.position_m[2] += kCubeSideM;
+        if (time_s > end_s && contact != ToolContact::bonded) pose.position_m[2] += kCubeSideM;  // gone
         const StepResult result = simulation.step(pose, kDtS);
         ASSERT_TRUE(vec(result.force_n).allFinite()) << "step " << k;
         largest_n = std::max(largest_n, vec(result.force_n).norm());
@@ -88,20 +98,18 @@ TEST_P(Crushed, To_half_its_height_and_released_the_body_returns_to_its_rest_sha
     EXPECT_EQ(other_status, kStepOk);
     EXPECT_GT(inverted, 0) << "not the hard case that this test is for";
     EXPECT_LT(off_rest(asset, simulation), kOffRest);
-    { const ContactScene scene = scene_of(asset); tools::ContactProblem problem(scene.mesh, scene.material);
-      std::vector<Point> x; const auto now = positions(simulation); for (Eigen::Index i=0;i<now.cols();++i) x.push_back({now(0,i),now(1,i),now(2,i)});
-      try { auto e = problem.equilibrium(scene.held, {}, x); double d=0,dr=0; for (size_t i=0;i<x.size();++i) { d+=(vec(e.state.positions_m[i])-vec(x[i])).squaredNorm(); dr+=(vec(e.state.positions_m[i])-vec(asset.nodes_m[i])).squaredNorm(); }
-      std::printf("equilibrium from there: moved %.1e, off rest %.1e, energy %.2e J\n", sqrt(d/double(x.size()))/0.1, sqrt(dr/double(x.size()))/0.1, e.energy_j); } catch (const std::exception& e) { std::printf("%s\n", e.what()); }
-      std::printf("speed %.1e, inverted at end %d, touched %u\n", velocities(simulation).colwise().norm().maxCoeff(), inverted_tetrahedra(asset, now), simulation.tool(0).touched_nodes); }
-    std::printf("crush n %u contact %d in %.2f s: %d inverted, %d steps not converged, largest %.0f N, off rest %.1e\n", cells,
-                int(contact), press_s, inverted, not_converged, largest_n, off_rest(asset, simulation));
+    RecordProperty("inverted", inverted);
+    RecordProperty("steps_not_converged", not_converged);
+    RecordProperty("off_rest", testing::PrintToString(off_rest(asset, simulation)));
+    RecordProperty("largest_force_n", testing::PrintToString(largest_n));
 }
 
 INSTANTIATE_TEST_SUITE_P(Press, Crushed,
                          testing::Values(Crush{6, ToolContact::bonded, 0.25}, Crush{6, ToolContact::bonded, 1},
                                          Crush{8, ToolContact::bonded, 0.25},
                                          Crush{6, ToolContact::sticking, 0.25},
-                                         Crush{6, ToolContact::frictionless, 0.25}));
+                                         Crush{6, ToolContact::frictionless, 0.25},
+                                         Crush{6, ToolContact::coulomb, 0.25}));
 
 /// A block that nothing holds, hit off its middle by a ball, flies and turns.
 struct Flight {
@@ -150,6 +158,8 @@ struct Flight {
 // Unsolved parts of the steps, each at most 1e-4 m/s (root mean square) of the velocities, mostly while the body
 // still vibrates: 2e-4 of the momentum.
 constexpr double kMomentum = 1e-3;
+// Implicit Euler slows a spin down, here by 1.4 % in the 200 steps; of that, linearised steps miss a tenth.
+constexpr double kSpin = 3e-3;
 
 TEST(FreeFlight, Conserves_the_momentum_that_the_tool_gave) {
     const Flight flight;
@@ -185,17 +195,17 @@ TEST(FreeFlight, Spins_as_in_converged_implicit_euler_steps) {
     const Pose away = flight.away(simulation);
     const double start = flight.spin(x, v).norm();
     double largest = 0;
-    Eigen::Vector3d expected, found;
     for (int k = 1; k <= 200; ++k) {
         (void)simulation.step(away, kDtS);
         state = reference.step(state, {}, kDtS).state;
         const auto count = static_cast<Eigen::Index>(state.positions_m.size());
-        expected = flight.spin(Eigen::Map<const Eigen::Matrix3Xd>(state.positions_m[0].data(), 3, count),
+        const Eigen::Vector3d expected = flight.spin(Eigen::Map<const Eigen::Matrix3Xd>(state.positions_m[0].data(), 3, count),
                         Eigen::Map<const Eigen::Matrix3Xd>(state.velocities_m_per_s[0].data(), 3, count));
-        found = flight.spin(positions(simulation), velocities(simulation));
+        const Eigen::Vector3d found = flight.spin(positions(simulation), velocities(simulation));
         largest = std::max(largest, (found - expected).norm());
     }
-    std::printf("spin start %.4e reference %.4e found %.4e largest error %.1e\n", start, expected.norm(), found.norm(), largest/start);
+    EXPECT_LT(largest, kSpin * start);
+    RecordProperty("spin_error", testing::PrintToString(largest / start));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace knead::core {
 namespace {
@@ -32,7 +33,6 @@ SparseInverse<S>::SparseInverse(const MatrixPattern& pattern, const Kernels& ker
     : pattern_(pattern),
       kernels_(kernels.sparse<S>()),
       row_begin_(pattern.node_count + 1, 0),
-      upper_begin_(pattern.column_begin.begin(), pattern.column_begin.end()),
       between_(pattern.node_count) {
     // Columns of the lower triangle are the rows of the upper one.
     for (const std::uint32_t row : pattern.row_nodes)
@@ -41,25 +41,52 @@ SparseInverse<S>::SparseInverse(const MatrixPattern& pattern, const Kernels& ker
         most_ = std::max<std::size_t>(most_, 3 * row_begin_[i + 1]);
         row_begin_[i + 1] += row_begin_[i];
     }
-    const std::size_t blocks = pattern.row_nodes.size();
-    nodes_.resize(blocks);
-    mirror_.resize(blocks);
-    lower_columns_.resize(blocks);
-    upper_columns_.resize(blocks);
+    nodes_.resize(pattern.row_nodes.size());
+    mirror_.resize(pattern.row_nodes.size());
     std::vector<std::uint32_t> next(row_begin_.begin(), row_begin_.end() - 1);
     for (std::uint32_t j = 0; j < pattern.node_count; ++j) {
         for (std::uint32_t k = pattern.column_begin[j]; k < pattern.column_begin[j + 1]; ++k) {
             const std::uint32_t at = next[pattern.row_nodes[k]]++;
             nodes_[at] = j;
-            lower_columns_[at] = 4 * j;
             mirror_[at] = k;
-            upper_columns_[k] = 4 * pattern.row_nodes[k];
         }
     }
-    lower_blocks_ = AlignedArray<S>(12 * blocks);
-    upper_blocks_ = AlignedArray<S>(12 * blocks);
+    arrange(row_begin_, nodes_, lower_);
+    arrange(pattern.column_begin, pattern.row_nodes, upper_);
     small_.resize(most_ * most_);
     solution_.resize(3 * most_);
+}
+
+template <class S>
+void SparseInverse<S>::arrange(const std::vector<std::uint32_t>& row_begin,
+                               const std::vector<std::uint32_t>& columns, Groups& groups) const {
+    const std::size_t at_once = kernels_.at_once, rows = pattern_.node_count;
+    const auto length = [&](std::uint32_t row) { return row_begin[row + 1] - row_begin[row]; };
+    std::vector<std::uint32_t> order(rows);
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return length(a) > length(b); });
+    groups.place.resize(columns.size());
+    groups.begin.assign(1, 0);
+    // Rows missing in the last group: the zeros behind the last node.
+    const auto nobody = static_cast<std::int32_t>(4 * rows);
+    for (std::size_t first = 0; first < rows; first += at_once) {
+        const std::uint32_t begin = groups.begin.back(), longest = length(order[first]);
+        groups.begin.push_back(begin + longest);
+        groups.columns.resize(at_once * (begin + longest), nobody);
+        for (std::size_t lane = 0; lane < at_once; ++lane) {
+            const bool real = first + lane < rows;
+            groups.rows.push_back(real ? static_cast<std::int32_t>(4 * order[first + lane]) : nobody);
+            if (!real) continue;
+            const std::uint32_t row = order[first + lane];
+            for (std::uint32_t k = 0; k < length(row); ++k) {
+                const std::uint32_t block = row_begin[row] + k;
+                groups.columns[at_once * (begin + k) + lane] = static_cast<std::int32_t>(4 * columns[block]);
+                groups.place[block] = static_cast<std::uint32_t>(12 * at_once * (begin + k) + 4 * lane);
+            }
+        }
+    }
+    groups.blocks = AlignedArray<S>(12 * at_once * groups.begin.back());
 }
 
 template <class S>
@@ -105,26 +132,30 @@ void SparseInverse<S>::make_row(const double* values, std::uint32_t row) noexcep
             x[i] = sum / small_[i * n + i];
         }
     }
+    const std::size_t width = 4 * kernels_.at_once;
     for (std::size_t a = 0; a < count; ++a) {
-        S* const lower = lower_blocks_.data() + 12 * (begin + a);
-        S* const upper = upper_blocks_.data() + std::size_t{12} * mirror_[begin + a];
+        S* const lower = lower_.blocks.data() + lower_.place[begin + a];
+        S* const upper = upper_.blocks.data() + upper_.place[mirror_[begin + a]];
         for (std::size_t r = 0; r < 3; ++r) {
             for (std::size_t c = 0; c < 3; ++c) {
                 const auto g = static_cast<S>(solution_[r * n + 3 * a + c]);  // G(r, c)
-                lower[4 * c + r] = g;
-                upper[4 * r + c] = g;
+                lower[width * c + r] = g;
+                upper[width * r + c] = g;
             }
         }
     }
 }
 
 template <class S>
+BlockGroups<S> SparseInverse<S>::view(const Groups& groups) noexcept {
+    return {groups.begin.size() - 1, groups.begin.data(), groups.rows.data(), groups.columns.data(),
+            groups.blocks.data()};
+}
+
+template <class S>
 void SparseInverse<S>::apply(const NodeField<S>& v, NodeField<S>& out) const noexcept {
-    const std::size_t rows = pattern_.node_count;
-    kernels_.multiply({rows, row_begin_.data(), lower_columns_.data(), lower_blocks_.data()}, v.data(),
-                      between_.data());
-    kernels_.multiply({rows, upper_begin_.data(), upper_columns_.data(), upper_blocks_.data()},
-                      between_.data(), out.data());
+    kernels_.multiply(view(lower_), v.data(), between_.data());
+    kernels_.multiply(view(upper_), between_.data(), out.data());
 }
 
 template class SparseInverse<float>;

@@ -30,19 +30,32 @@ class SparseInverse {
     [[nodiscard]] std::uint32_t row_count() const noexcept { return pattern_.node_count; }
     /// Floating-point operations of the largest row.
     [[nodiscard]] std::uint64_t largest_row() const noexcept { return most_ * most_ * most_ / 3; }
-    [[nodiscard]] std::size_t bytes() const noexcept { return 2 * lower_blocks_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const noexcept { return lower_.blocks.bytes() + upper_.blocks.bytes();
+    }
 
   private:
     void make_row(const double* values, std::uint32_t row) noexcept;
     [[nodiscard]] double value(const double* values, std::uint32_t i, std::uint32_t j, int r, int c) const noexcept;
+
+    /// G or G^T in the order of the kernels.
+    struct Groups {
+        std::vector<std::uint32_t> begin;
+        std::vector<std::int32_t> rows, columns;
+        AlignedArray<S> blocks;
+        /// [blocks of the matrix, row by row] where column 0 of the block begins.
+        std::vector<std::uint32_t> place;
+    };
+
+    void arrange(const std::vector<std::uint32_t>& row_begin, const std::vector<std::uint32_t>& columns,
+                 Groups& groups) const;
+    [[nodiscard]] static BlockGroups<S> view(const Groups& groups) noexcept;
 
     const MatrixPattern& pattern_;
     const SparseKernels<S>& kernels_;
     std::vector<std::uint32_t> row_begin_;  ///< [nodes + 1] of G
     std::vector<std::uint32_t> nodes_;      ///< [blocks] column, ascending, the last of each row the diagonal
     std::vector<std::uint32_t> mirror_;     ///< [blocks] where G^T has the block
-    std::vector<std::uint32_t> lower_columns_, upper_begin_, upper_columns_;
-    AlignedArray<S> lower_blocks_, upper_blocks_;  ///< of G and of G^T
+    Groups lower_, upper_;                  ///< G, G^T
     mutable NodeField<S> between_;
     std::size_t most_ = 0;  ///< rows of the largest small matrix
     std::vector<double> small_, solution_;

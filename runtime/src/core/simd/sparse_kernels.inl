@@ -6,25 +6,27 @@ namespace knead::core::KNEAD_SIMD {
 namespace {
 
 template <class S>
-void multiply_blocks(const BlockRows<S>& a, const S* v, S* out) {
-    using V = Vector<S, 4>;
-    for (std::size_t row = 0; row < a.rows; ++row) {
+void multiply_blocks(const BlockGroups<S>& a, const S* v, S* out) {
+    constexpr int W = kLanes<S>;
+    constexpr std::size_t at_once = W / 4;
+    using V = Vector<S, W>;
+    for (std::size_t group = 0; group < a.groups; ++group) {
         // Three sums, because each waits for itself.
         V x{}, y{}, z{};
-        for (std::uint32_t k = a.begin[row]; k < a.begin[row + 1]; ++k) {
-            const S* const in = v + a.columns[k];
-            const S* const block = a.blocks + std::size_t{12} * k;
-            x += load<V>(block) * in[0];
-            y += load<V>(block + 4) * in[1];
-            z += load<V>(block + 8) * in[2];
+        for (std::uint32_t k = a.begin[group]; k < a.begin[group + 1]; ++k) {
+            const V in = load_groups<S, W, 1>(v, a.columns + at_once * k);
+            const S* const block = a.blocks + std::size_t{3} * W * k;
+            x += load<V>(block) * shuffle_groups<0, 0, 0, 0, W>(in, in);
+            y += load<V>(block + W) * shuffle_groups<1, 1, 1, 1, W>(in, in);
+            z += load<V>(block + 2 * W) * shuffle_groups<2, 2, 2, 2, W>(in, in);
         }
-        store(out + 4 * row, x + y + z);
+        store_groups<S, W>(x + y + z, a.rows + at_once * group, out);
     }
 }
 
 template <class S>
 constexpr SparseKernels<S> sparse_kernels() {
-    return {multiply_blocks<S>};
+    return {kLanes<S> / 4, multiply_blocks<S>};
 }
 
 }  // namespace

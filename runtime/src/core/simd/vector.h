@@ -74,9 +74,9 @@ inline const Vector<S, 4>& node(const S* from, std::int32_t index) {
     return *reinterpret_cast<const Vector<S, 4>*>(from + index);
 }
 
-/// The four numbers at from[nodes[0]], from[nodes[4]], ... side by side. Said with intrinsics where there are
+/// The four numbers at from[nodes[0]], from[nodes[Stride]], ... side by side. Said with intrinsics where there are
 /// some, because they load and insert in one operation.
-template <class S, int W>
+template <class S, int W, int Stride = 4>
 inline Vector<S, W> load_groups(const S* from, const std::int32_t* nodes) {
     static_assert(W == 4 || W == 8 || W == 16);
     if constexpr (W == 4) {
@@ -85,19 +85,29 @@ inline Vector<S, W> load_groups(const S* from, const std::int32_t* nodes) {
     } else if constexpr (W == 16 && sizeof(S) == 4) {
         // Loads that broadcast and blend leave the shuffle units alone.
         __m512 v = _mm512_castps128_ps512(node(from, nodes[0]));
-        v = _mm512_mask_broadcast_f32x4(v, 0x00f0, node(from, nodes[4]));
-        v = _mm512_mask_broadcast_f32x4(v, 0x0f00, node(from, nodes[8]));
-        return _mm512_mask_broadcast_f32x4(v, 0xf000, node(from, nodes[12]));
+        v = _mm512_mask_broadcast_f32x4(v, 0x00f0, node(from, nodes[Stride]));
+        v = _mm512_mask_broadcast_f32x4(v, 0x0f00, node(from, nodes[2 * Stride]));
+        return _mm512_mask_broadcast_f32x4(v, 0xf000, node(from, nodes[3 * Stride]));
     } else if constexpr (W == 8 && sizeof(S) == 8) {
-        return _mm512_insertf64x4(_mm512_castpd256_pd512(node(from, nodes[0])), node(from, nodes[4]), 1);
+        return _mm512_insertf64x4(_mm512_castpd256_pd512(node(from, nodes[0])), node(from, nodes[Stride]), 1);
 #endif
 #ifdef __AVX2__
     } else if constexpr (W == 8 && sizeof(S) == 4) {
-        return _mm256_insertf128_ps(_mm256_castps128_ps256(node(from, nodes[0])), node(from, nodes[4]), 1);
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(node(from, nodes[0])), node(from, nodes[Stride]), 1);
 #endif
     } else {
         static_assert(W == 4, "wider registers need a way to fill them");
     }
+}
+
+/// Puts every group of four lanes at to[nodes[0]], to[nodes[1]], ...
+template <class S, int W>
+inline void store_groups(Vector<S, W> v, const std::int32_t* nodes, S* to) {
+    [&]<int... Group>(std::integer_sequence<int, Group...>) {
+        ((*reinterpret_cast<Vector<S, 4>*>(to + nodes[Group]) =
+              group<4 * Group>(v, std::make_integer_sequence<int, 4>{})),
+         ...);
+    }(std::make_integer_sequence<int, W / 4>{});
 }
 
 /// Whether a comparison holds in all lanes.
