@@ -25,8 +25,8 @@ std::vector<Pose> press_slide_turn_lift(const std::vector<Pose>& rest, double ti
     return {moved(rest[0], way, turn)};
 }
 
-// A slipping node on a curved tool moves in one tangent plane during a step: 0.2 mm there is 0.7 micrometres off
-// a radius of 30 mm.
+// A slipping node on a curved tool moves in one tangent plane during a step: 0.2 mm there is 0.7 micrometres
+// off a radius of 30 mm.
 constexpr double kOffSurfaceM = 2e-6;
 
 // What is asked of the force, with the default tolerance of a step's force of as much.
@@ -42,8 +42,8 @@ constexpr double kNonlinearError = 2e-3;
 constexpr double kNonlinearCatchError = 1e-2;
 // Solved to 1e-8. Measured up to 3.4e-8.
 constexpr double kSolvedError = 1e-6;
-// A node that begins to slip does so in the tangent plane at its anchor, in the reference in that where its velocity
-// leads it: apart by a step's slip over the radius. Measured up to 1.5e-3, and 1.7e-4.
+// A node that begins to slip does so in the tangent plane at its anchor, in the reference in that where its
+// velocity leads it: apart by a step's slip over the radius. Measured up to 1.5e-3, and 1.7e-4.
 constexpr double kPlaneError = 3e-3;
 constexpr double kSettledPlaneError = 5e-4;
 
@@ -144,7 +144,8 @@ ToolSet plate_beside(const Asset& asset, double x_m, ToolContact contact) {
 }
 
 TEST(ContactAgainstReferenceOfTwoTools, Pinched_cube_gives_each_plate_the_force_of_the_exact_steps) {
-    for (const ToolContact contact : {ToolContact::frictionless, ToolContact::sticking, ToolContact::coulomb}) {
+    for (const ToolContact contact :
+         {ToolContact::frictionless, ToolContact::sticking, ToolContact::coulomb}) {
         Asset asset = scenario_cube(kPinchedCells);
         asset.tools = {plate_beside(asset, 0, contact), plate_beside(asset, kCubeSideM, contact)};
         const ContactScene scene = scene_of(asset);

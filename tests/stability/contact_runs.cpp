@@ -73,7 +73,7 @@ bool in_any(const Asset& asset, const std::vector<Pose>& poses) {
 }  // namespace
 
 Record run_runtime(const ContactScene& scene, const Motion& motion, double dt_s, int steps,
-                SimulationConfig config) {
+                   SimulationConfig config) {
     config.tools.clear();
     for (std::size_t t = 0; t < scene.asset.tools.size(); ++t)
         config.tools.push_back(t);
@@ -92,10 +92,9 @@ Record run_runtime(const ContactScene& scene, const Motion& motion, double dt_s,
         run.steps.emplace_back();
         for (std::size_t t = 0; t < poses.size(); ++t) {
             const ToolResult& result = simulation.tool(t);
-            run.steps.back().push_back(
-                {vec(result.force_n), vec(result.torque_nm),
-                 touched(scene.asset.tools[t], poses[t], simulation.positions_m(), result.touched_nodes,
-                         run.farthest_touch_m)});
+            run.steps.back().push_back({vec(result.force_n), vec(result.torque_nm),
+                                        touched(scene.asset.tools[t], poses[t], simulation.positions_m(),
+                                                result.touched_nodes, run.farthest_touch_m)});
         }
     }
     return run;
@@ -159,8 +158,8 @@ Difference difference(const Record& run, const Record& truth, std::size_t tool, 
         const ToolSample& b = truth.steps[static_cast<std::size_t>(k)][tool];
         d.largest_force_n = std::max(d.largest_force_n, b.force_n.norm());
         std::vector<std::uint32_t> odd;
-        std::set_symmetric_difference(a.touched.begin(), a.touched.end(), b.touched.begin(),
-                                      b.touched.end(), std::back_inserter(odd));
+        std::set_symmetric_difference(a.touched.begin(), a.touched.end(), b.touched.begin(), b.touched.end(),
+                                      std::back_inserter(odd));
         d.touching_steps += a.touched.empty() && b.touched.empty() ? 0 : 1;
         d.most_apart = std::max(d.most_apart, odd.size());
         apart = odd.empty() ? 0 : apart + 1;
@@ -188,7 +187,8 @@ Difference difference(const Record& run, const Record& truth, std::size_t tool, 
 
 std::string text(const Difference& d) {
     return fmt::format(
-        "{:.3f} N; force {:.1e} (step {}), settled {:.1e}; torque {:.1e}, settled {:.1e}; sets differ in {} of "
+        "{:.3f} N; force {:.1e} (step {}), settled {:.1e}; torque {:.1e}, settled {:.1e}; sets differ in {} "
+        "of "
         "{} steps, {} in a row, by {} nodes",
         d.largest_force_n, d.force, d.worst_step, d.settled_force, d.torque, d.settled_torque, d.steps_apart,
         d.touching_steps, d.longest_apart, d.most_apart);

@@ -23,9 +23,9 @@ struct ToolSample {
 struct Record {
     std::vector<std::vector<ToolSample>> steps;  ///< [steps][tools]
     // Of the runtime only:
-    std::uint32_t status = 0;        ///< bits of all steps
+    std::uint32_t status = 0;           ///< bits of all steps
     std::vector<double> speed_m_per_s;  ///< [steps] of the fastest node at the end
-    double farthest_touch_m = 0;     ///< of what it holds from the tool's surface
+    double farthest_touch_m = 0;        ///< of what it holds from the tool's surface
     // Of the reference only:
     int slid_at = 0;  ///< first step in which sticking nodes had to slide (ContactProblem), or 0
 };
@@ -41,8 +41,8 @@ enum class Oracle { linearised, converged };
 [[nodiscard]] Record run_reference(const ContactScene& scene, const Motion& motion, double dt_s, int steps,
                                    Oracle oracle);
 
-/// How far a run is from another, of one tool. Errors of forces are relative to the largest of the second run;
-/// those of torques to that force at half of the cube's side.
+/// How far a run is from another, of one tool. Errors of forces are relative to the largest of the second
+/// run; those of torques to that force at half of the cube's side.
 struct Difference {
     double largest_force_n = 0;
     double force = 0;          ///< in any step

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <cstdio>
+#include <algorithm>
+#include <cmath>
 #include <ostream>
 #include <random>
-#include <string>
+#include <stdexcept>
 
 #include "stability/contact_scene.h"
 
@@ -34,6 +35,8 @@ Simulation simulation_of(const Asset& asset, double expected_dt_s) {
     if (!created.ok()) throw std::runtime_error(created.error().text());
     return std::move(created).value();
 }
+
+constexpr int kPressSteps = 100;
 
 /// Down by a tenth in a fifth of a second, with a hand's tremor (10 Hz, 0.3 mm, a third of it sideways).
 Pose pressed(const Pose& rest, double time_s) {
@@ -77,31 +80,37 @@ void PrintTo(const Case& c, std::ostream* out) {
 
 class IterationsInContact : public testing::TestWithParam<Case> {};
 
-// Wanted: within 10 % of a factor made for the touched set, and steps take whole iterations.
+// Wanted: within 10 % of a factor made for the touched set. Steps take whole iterations, and they stop by a
+// bound of the force error that is coarser for held nodes than for bonded ones: where a step needs one or
+// two, some steps take one more. Measured: 0.35 of an iteration there, 3 to 9 % elsewhere.
 constexpr double kMoreIterations = 1.1;
+constexpr double kPartOfAnIteration = 0.5;
+// The correction takes in four nodes a solve: the 25 of the largest case, caught at once, are in after seven.
+constexpr int kTakenIn = 8;
+// Meanwhile held nodes are projected. Measured: 23 iterations at most, against 5.
+constexpr std::uint32_t kWhileTakenIn = 32;
 
 TEST_P(IterationsInContact, Are_those_of_a_run_in_which_the_same_nodes_are_eliminated) {
     const auto [cells, nu, dt_s] = GetParam();
-    const int steps = static_cast<int>(std::lround(0.3 / dt_s));
     Simulation touching = simulation_of(held_in_the_middle(cells, nu, ToolContact::sticking), dt_s);
     Simulation bonded = simulation_of(held_in_the_middle(cells, nu, ToolContact::bonded), dt_s);
     const Pose rest = touching.tool_rest_pose();
-    Iterations with_contact, eliminated, all;
-    std::uint32_t nodes = 0;
-    for (int k = 1; k <= steps; ++k) {
+    Iterations with_contact, eliminated, first;
+    for (int k = 1; k <= kPressSteps; ++k) {
         const Pose pose = pressed(rest, k * dt_s);
         const StepResult a = touching.step(pose, dt_s);
         const StepResult b = bonded.step(pose, dt_s);
-        all.add(a);
-        nodes = std::max(nodes, a.touched_nodes);
-        if (a.touched_nodes != b.touched_nodes) continue;
-        with_contact.add(a);
-        eliminated.add(b);
+        ASSERT_EQ(a.touched_nodes, b.touched_nodes) << "step " << k;
+        (k <= kTakenIn ? first : with_contact).add(a);
+        if (k > kTakenIn) eliminated.add(b);
     }
-    std::printf("n %u nu %.2f dt %.0f ms: %d nodes; %d of %d steps alike; iterations %.2f (max %u) bonded %.2f (max %u); all %.2f (max %u) status %u\n", cells, nu,
-                1e3 * dt_s, nodes, with_contact.steps, steps, with_contact.mean(), with_contact.largest, eliminated.mean(),
-                eliminated.largest, all.mean(), all.largest, all.status);
-    EXPECT_LE(with_contact.mean(), kMoreIterations * eliminated.mean());
+    EXPECT_EQ(first.status | with_contact.status | eliminated.status, kStepOk);
+    EXPECT_LE(with_contact.mean(),
+              std::max(kMoreIterations * eliminated.mean(), eliminated.mean() + kPartOfAnIteration));
+    EXPECT_LE(first.largest, kWhileTakenIn);
+    RecordProperty("touching", testing::PrintToString(with_contact.mean()));
+    RecordProperty("eliminated", testing::PrintToString(eliminated.mean()));
+    RecordProperty("largest_while_caught", static_cast<int>(first.largest));
 }
 
 std::vector<Case> cases() {
@@ -120,11 +129,15 @@ double draw(std::mt19937_64& engine) {
     return static_cast<double>(engine() >> 11U) * 0x1.0p-53;
 }
 
-TEST(IterationsUnderAnotherDt, Jitter) {
+// Jitter stays within what one set of numbers is good for. Measured: half an iteration more.
+constexpr double kJitterIterations = 1;
+
+TEST(IterationsUnderAnotherDt, Jitter_of_a_fifth_costs_less_than_an_iteration_a_step) {
     for (const double nu : {0.3, 0.49}) {
         for (const double dt_s : {1e-3, 10e-3}) {
             const Asset asset = held_in_the_middle(6, nu, ToolContact::bonded);
-            Simulation steady = simulation_of(asset, dt_s), jittering = simulation_of(asset, dt_s);
+            Simulation steady = simulation_of(asset, dt_s);
+            Simulation jittering = simulation_of(asset, dt_s);
             const Pose rest = steady.tool_rest_pose();
             std::mt19937_64 engine(1);
             Iterations a, b;
@@ -135,40 +148,46 @@ TEST(IterationsUnderAnotherDt, Jitter) {
                 time_s += dt;
                 b.add(jittering.step(pressed(rest, time_s), dt));
             }
-            std::printf("jitter nu %.2f dt %.0f ms: steady %.2f (max %u), jittering %.2f (max %u) status %u\n", nu, 1e3 * dt_s, a.mean(),
-                        a.largest, b.mean(), b.largest, b.status);
+            EXPECT_EQ(b.status, kStepOk);
+            EXPECT_LE(b.mean(), a.mean() + kJitterIterations) << "nu " << nu << ", dt " << dt_s << " s";
+            EXPECT_LE(b.largest, a.largest + 2) << "nu " << nu << ", dt " << dt_s << " s";
         }
     }
 }
 
-TEST(IterationsUnderAnotherDt, Jumps) {
-    for (const std::uint32_t cells : {6U, 10U})
+struct Jump {
+    double dt_s;
+    int steps;
+    int latency;               ///< steps until iterations are back for good
+    std::uint32_t iterations;  ///< of a step meanwhile
+};
+// Measured at nu .49, n = 6: 22 and 102 steps, 144 and 18 iterations.
+constexpr Jump kJumps[] = {{0.25e-3, 100, 100, 3}, {20e-3, 60, 30, 180}, {1e-3, 300, 150, 30}};
+// After that, of those of a simulation made for the dt. The states are not quite the same.
+constexpr std::uint32_t kBack = 1;
+
+TEST(IterationsUnderAnotherDt, Jump_from_a_quarter_to_twenty_to_one_millisecond_costs_bounded_work_and_ends) {
     for (const double nu : {0.3, 0.49}) {
-        const Asset asset = held_in_the_middle(cells, nu, ToolContact::sticking);
-        Simulation simulation = simulation_of(asset, 0.25e-3);
-        const Pose rest = simulation.tool_rest_pose();
+        const Asset asset = held_in_the_middle(6, nu, ToolContact::sticking);
+        Simulation jumping = simulation_of(asset, kJumps[0].dt_s);
+        const Pose rest = jumping.tool_rest_pose();
         double time_s = 0;
-        for (const double dt_s : {0.25e-3, 20e-3, 1e-3, 0.25e-3}) {
-            const int steps = dt_s < 0.5e-3 ? 400 : dt_s < 5e-3 ? 400 : 60;
-            std::vector<std::uint32_t> its;
-            Iterations late;
-            std::uint32_t status = 0;
-            for (int k = 0; k < steps; ++k) {
-                time_s += dt_s;
-                const StepResult r = simulation.step(pressed(rest, time_s), dt_s);
-                status |= r.status;
-                its.push_back(r.solver_iterations);
-                if (k >= steps * 3 / 4) late.add(r);
+        for (const Jump& jump : kJumps) {
+            Simulation made_for_it = simulation_of(asset, jump.dt_s);
+            Iterations meanwhile, back, expected;
+            for (int k = 1; k <= jump.steps; ++k) {
+                time_s += jump.dt_s;
+                const Pose pose = pressed(rest, time_s);
+                (k <= jump.latency ? meanwhile : back).add(jumping.step(pose, jump.dt_s));
+                const StepResult result = made_for_it.step(pose, jump.dt_s);
+                if (k > jump.latency) expected.add(result);
             }
-            int last = 0;
-            std::uint32_t most = 0;
-            for (int k = 0; k < steps; ++k) {
-                most = std::max(most, its[size_t(k)]);
-                if (its[size_t(k)] > late.largest) last = k + 1;
+            SCOPED_TRACE(testing::Message() << "nu " << nu << ", to " << jump.dt_s << " s");
+            EXPECT_EQ(meanwhile.status | back.status, kStepOk);
+            EXPECT_LE(meanwhile.largest, jump.iterations);
+            if (back.steps > 0) {
+                EXPECT_LE(back.largest, expected.largest + kBack);
             }
-            std::printf("n %u nu %.2f to dt %.2f ms: max %u iterations, late mean %.2f max %u; last above at step %d; status %u; first:", cells, nu, 1e3 * dt_s, most, late.mean(), late.largest, last, status);
-            for (int k = 0; k < 30; ++k) std::printf(" %u", its[size_t(k)]);
-            std::printf("\n");
         }
     }
 }

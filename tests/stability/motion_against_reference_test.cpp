@@ -22,16 +22,16 @@ constexpr double kDensityKgPerM3 = 1000;  // 1 kg in a cube of 0.1 m
 constexpr double kStrain = 0.1;
 constexpr std::uint64_t kSeed = 1;
 
-// Pressed by 10 % in 0.2 s, then held, by a hand that trembles (10 Hz, 0.3 mm): nothing that a prediction along
-// the last velocity could follow by itself.
+// Pressed by 10 % in 0.2 s, then held, by a hand that trembles (10 Hz, 0.3 mm): nothing that a prediction
+// along the last velocity could follow by itself.
 constexpr double kDtS = 1e-3;
 constexpr double kRampS = 0.2;
 constexpr int kSteps = 300;
 constexpr double kTremorM = 0.3e-3;
 constexpr double kTremorHz = 10;
 
-// What the issue asks for at every sampled time: of the largest force up to that time, so that the first, small
-// forces are judged by themselves. From the first step on there is force: that of the tremor's start.
+// What the issue asks for at every sampled time: of the largest force up to that time, so that the first,
+// small forces are judged by themselves. From the first step on there is force: that of the tremor's start.
 constexpr double kForceTolerance = 1e-3;
 
 struct Press {
@@ -81,8 +81,8 @@ TEST_P(MotionAgainstReference, Force_under_a_trembling_plate_is_that_of_converge
         const tools::MotionStep expected = reference.step(state, motion, kDtS);
         state = expected.state;
         const Point force_n = tools::force_on_plate_n(press, expected.solution);
-        const double error_n = norm({step.force_n[0] - force_n[0], step.force_n[1] - force_n[1],
-                                     step.force_n[2] - force_n[2]});
+        const double error_n =
+            norm({step.force_n[0] - force_n[0], step.force_n[1] - force_n[1], step.force_n[2] - force_n[2]});
         largest_n = std::max(largest_n, norm(force_n));
         worst_error_n = std::max(worst_error_n, error_n);
         if (error_n > worst * largest_n) {

@@ -60,8 +60,8 @@ struct Crush {
 };
 
 void PrintTo(const Crush& crush, std::ostream* out) {
-    *out << "n = " << crush.cells << ", contact " << static_cast<int>(crush.contact) << ", in " << crush.press_s
-         << " s";
+    *out << "n = " << crush.cells << ", contact " << static_cast<int>(crush.contact) << ", in "
+         << crush.press_s << " s";
 }
 
 class Crushed : public testing::TestWithParam<Crush> {};
@@ -93,7 +93,8 @@ TEST_P(Crushed, To_half_its_height_and_released_the_body_returns_to_its_rest_sha
         largest_n = std::max(largest_n, vec(result.force_n).norm());
         not_converged += (result.status & kStepNotConverged) != 0 ? 1 : 0;
         other_status |= result.status & ~std::uint32_t{kStepNotConverged};
-        if (std::abs(time_s - press_s) < kDtS / 2) inverted = inverted_tetrahedra(asset, positions(simulation));
+        if (std::abs(time_s - press_s) < kDtS / 2)
+            inverted = inverted_tetrahedra(asset, positions(simulation));
     }
     EXPECT_EQ(other_status, kStepOk);
     EXPECT_GT(inverted, 0) << "not the hard case that this test is for";
@@ -104,12 +105,11 @@ TEST_P(Crushed, To_half_its_height_and_released_the_body_returns_to_its_rest_sha
     RecordProperty("largest_force_n", testing::PrintToString(largest_n));
 }
 
-INSTANTIATE_TEST_SUITE_P(Press, Crushed,
-                         testing::Values(Crush{6, ToolContact::bonded, 0.25}, Crush{6, ToolContact::bonded, 1},
-                                         Crush{8, ToolContact::bonded, 0.25},
-                                         Crush{6, ToolContact::sticking, 0.25},
-                                         Crush{6, ToolContact::frictionless, 0.25},
-                                         Crush{6, ToolContact::coulomb, 0.25}));
+INSTANTIATE_TEST_SUITE_P(
+    Press, Crushed,
+    testing::Values(Crush{6, ToolContact::bonded, 0.25}, Crush{6, ToolContact::bonded, 1},
+                    Crush{8, ToolContact::bonded, 0.25}, Crush{6, ToolContact::sticking, 0.25},
+                    Crush{6, ToolContact::frictionless, 0.25}, Crush{6, ToolContact::coulomb, 0.25}));
 
 /// A block that nothing holds, hit off its middle by a ball, flies and turns.
 struct Flight {
@@ -155,8 +155,8 @@ struct Flight {
     Eigen::VectorXd mass_kg;
 };
 
-// Unsolved parts of the steps, each at most 1e-4 m/s (root mean square) of the velocities, mostly while the body
-// still vibrates: 2e-4 of the momentum.
+// Unsolved parts of the steps, each at most 1e-4 m/s (root mean square) of the velocities, mostly while the
+// body still vibrates: 2e-4 of the momentum.
 constexpr double kMomentum = 1e-3;
 // Implicit Euler slows a spin down, here by 1.4 % in the 200 steps; of that, linearised steps miss a tenth.
 constexpr double kSpin = 3e-3;
@@ -199,7 +199,8 @@ TEST(FreeFlight, Spins_as_in_converged_implicit_euler_steps) {
         (void)simulation.step(away, kDtS);
         state = reference.step(state, {}, kDtS).state;
         const auto count = static_cast<Eigen::Index>(state.positions_m.size());
-        const Eigen::Vector3d expected = flight.spin(Eigen::Map<const Eigen::Matrix3Xd>(state.positions_m[0].data(), 3, count),
+        const Eigen::Vector3d expected =
+            flight.spin(Eigen::Map<const Eigen::Matrix3Xd>(state.positions_m[0].data(), 3, count),
                         Eigen::Map<const Eigen::Matrix3Xd>(state.velocities_m_per_s[0].data(), 3, count));
         const Eigen::Vector3d found = flight.spin(positions(simulation), velocities(simulation));
         largest = std::max(largest, (found - expected).norm());

@@ -110,6 +110,7 @@ class TypedStepper final : public Stepper {
     [[nodiscard]] bool settled(const SolverLimits& limits, std::uint32_t& status) noexcept;
     [[nodiscard]] bool finite() const noexcept;
     void accept(const Frame* hands, Real dt, bool failed) noexcept;
+    void go_beyond(Real dt) noexcept;
     void owe(Real dt) noexcept;
     void find_results(Real dt) noexcept;
     StepResult refuse(std::uint32_t status) noexcept;
@@ -131,6 +132,12 @@ class TypedStepper final : public Stepper {
 
     // State: what a step starts from.
     NodeField<S> displacements_, velocities_;
+    /// By how much the last step ended beyond where velocities alone would have carried it: about as far as the
+    /// next one will, while forces change smoothly.
+    NodeField<S> beyond_;
+    Real beyond_dt_s_ = 1;
+    Real smoothness_ = 0;  ///< how well that was true of the last step, 0 to 1
+    Real beyond_share_ = 0;  ///< of beyond_ that is predicted
     /// What the last solve left of its right-hand side, kg m: an impulse that was not given. It is given in the
     /// next step, so that small errors do not add up to a drift.
     NodeField<S> owed_;
@@ -138,7 +145,7 @@ class TypedStepper final : public Stepper {
     std::vector<Tool> tools_;
 
     // Of the step under way.
-    NodeField<S> predicted_, load_;
+    NodeField<S> predicted_, load_, scratch_;
     std::vector<Frame> hands_, frames_;
     std::vector<ToolUnknown> unknowns_;
     Solution<S> solution_;
@@ -166,7 +173,7 @@ TypedStepper<S>::TypedStepper(const Asset& asset, const SimulationConfig& config
       })) {
     const std::size_t nodes = model_.rest_m.size(), count = config.tools.size();
     for (NodeField<S>* field :
-         {&displacements_, &velocities_, &owed_, &predicted_, &load_, &solution_.displacement.nodes}) {
+         {&displacements_, &velocities_, &beyond_, &owed_, &predicted_, &load_, &scratch_, &solution_.displacement.nodes}) {
         *field = NodeField<S>(nodes);
     }
     tools_.resize(count);
@@ -191,6 +198,8 @@ template <class S>
 void TypedStepper<S>::reset() noexcept {
     displacements_.fill_zero();
     velocities_.fill_zero();
+    beyond_.fill_zero();
+    smoothness_ = 0;
     owed_.fill_zero();
     elements_.reset();
     contact_.reset();
@@ -234,8 +243,12 @@ StepResult TypedStepper<S>::step(const Pose* poses, double dt_s) noexcept {
 
 template <class S>
 void TypedStepper<S>::predict(const Frame* hands, Real dt) noexcept {
-    fields_.add_scaled(run_of(model_.free_count), displacements_.data(), static_cast<S>(dt),
-                       velocities_.data(), predicted_.data());
+    const std::size_t free = run_of(model_.free_count);
+    beyond_share_ = smoothness_ * (dt / beyond_dt_s_) * (dt / beyond_dt_s_);
+    fields_.add_scaled(free, displacements_.data(), static_cast<S>(dt), velocities_.data(),
+                       predicted_.data());
+    fields_.add_scaled(free, predicted_.data(), static_cast<S>(beyond_share_), beyond_.data(),
+                       predicted_.data());
     for (std::size_t k = 0; k < tools_.size(); ++k) {
         unknowns_[k] = {};
         tools_[k].frame = hands[k];
@@ -278,8 +291,11 @@ template <class S>
 void TypedStepper<S>::linearise(const System<S>& system) noexcept {
     const Real dt = system.dt_s, dt2 = dt * dt;
     elements_.linearise(static_cast<S>(dt2), predicted_, load_);
-    fields_.add_scaled(run_of(model_.free_count), load_.data(), static_cast<S>(dt / owed_dt_s_), owed_.data(),
-                       load_.data());
+    const std::size_t free = run_of(model_.free_count);
+    fields_.add_scaled(free, load_.data(), static_cast<S>(dt / owed_dt_s_), owed_.data(), load_.data());
+    fields_.multiply(free, masses_.kg.data(), static_cast<S>(-system.inertia * beyond_share_), beyond_.data(),
+                     scratch_.data());
+    fields_.add_scaled(free, load_.data(), S(1), scratch_.data(), load_.data());
     const Vec& gravity = model_.gravity_m_per_s2;
     if (!gravity.isZero(0)) {
         for (std::uint32_t i = 0; i < model_.moving_count; ++i)
@@ -379,13 +395,15 @@ void TypedStepper<S>::accept(const Frame* hands, Real dt, bool failed) noexcept 
     const Real travel = unilateral_ ? travel_m() : 0;
     const std::size_t free = run_of(model_.free_count);
     const NodeField<S>& d = solution_.displacement.nodes;
-    fields_.add_scaled(free, velocities_.data(), static_cast<S>(1 / dt), d.data(), velocities_.data());
+    go_beyond(dt);
+    fields_.add_scaled(free, velocities_.data(), static_cast<S>(1 / dt), beyond_.data(), velocities_.data());
     fields_.add_scaled(free, predicted_.data(), S(1), d.data(), displacements_.data());
     owe(dt);
     // An unsolved velocity would enter the next prediction and grow.
     if (failed) {
         velocities_.fill_zero();
         owed_.fill_zero();
+        beyond_.fill_zero();
     }
     for (std::size_t k = 0; k < tools_.size(); ++k) {
         Tool& tool = tools_[k];
@@ -403,6 +421,19 @@ void TypedStepper<S>::accept(const Frame* hands, Real dt, bool failed) noexcept 
         }
     }
     contact_.end_step(frames_, NodeReader(model_.rest_m, displacements_), travel);
+}
+
+template <class S>
+void TypedStepper<S>::go_beyond(Real dt) noexcept {
+    const std::size_t free = run_of(model_.free_count);
+    fields_.add_scaled(free, solution_.displacement.nodes.data(), static_cast<S>(beyond_share_),
+                       beyond_.data(), scratch_.data());
+    const Real ratio = (dt / beyond_dt_s_) * (dt / beyond_dt_s_);
+    const Real expected = ratio * static_cast<Real>(fields_.dot(free, beyond_.data(), beyond_.data()));
+    const Real agreed = static_cast<Real>(fields_.dot(free, beyond_.data(), scratch_.data()));
+    smoothness_ = expected > 0 ? std::clamp<Real>(agreed / expected, 0, 1) : 0;
+    std::swap(beyond_, scratch_);
+    beyond_dt_s_ = dt;
 }
 
 template <class S>

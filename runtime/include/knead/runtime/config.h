@@ -23,7 +23,7 @@ struct SimulationConfig {
     /// loading. Other steps are as exact; they take more iterations until it has been made anew, step by step.
     double expected_dt_s = 1e-3;
     Arithmetic arithmetic = Arithmetic::automatic;
-    double force_tolerance = 1e-3;    ///< relative bound of the force error of one step, (0, 0.1]
+    double force_tolerance = 3e-4;    ///< relative bound of the force error of one step, (0, 0.1]
     int max_solver_iterations = 500;  ///< of the conjugate gradients, per solve, > 0
     int max_contact_passes = 32;      ///< solves, with a changed touched set each, tried in one step, > 0
     bool with_torque = false;         ///< also find the torque on each tool
