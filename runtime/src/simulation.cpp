@@ -42,6 +42,11 @@ Result<Simulation> Simulation::create(const Asset& asset, const SimulationConfig
 }
 
 StepResult Simulation::step(const Pose& pose, double dt_s) noexcept {
+    if (tool_count() != 1) {
+        StepResult refused;
+        refused.status = kStepBadInput;
+        return refused;
+    }
     return impl_->stepper->step(&pose, dt_s);
 }
 

@@ -70,6 +70,38 @@ bool in_any(const Asset& asset, const std::vector<Pose>& poses) {
     return false;
 }
 
+/// Where the steps of a trajectory are linearised: how far each ends beyond where velocities alone lead, and
+/// the share of it that the next one is expected to repeat.
+class LinearisationPoint {
+  public:
+    [[nodiscard]] std::vector<Point> ahead(const tools::MotionState& from, double dt_s) const {
+        std::vector<Point> point = from.positions_m;
+        for (std::size_t n = 0; n < point.size(); ++n)
+            for (std::size_t k = 0; k < 3; ++k)
+                point[n][k] +=
+                    dt_s * from.velocities_m_per_s[n][k] + (beyond_m_.empty() ? 0 : share_ * beyond_m_[n][k]);
+        return point;
+    }
+    void follow(const tools::MotionState& from, const tools::MotionState& to, double dt_s) {
+        std::vector<Point> now = to.positions_m;
+        double expected = 0, agreed = 0;
+        for (std::size_t n = 0; n < now.size(); ++n) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                now[n][k] -= from.positions_m[n][k] + dt_s * from.velocities_m_per_s[n][k];
+                if (beyond_m_.empty()) continue;
+                expected += beyond_m_[n][k] * beyond_m_[n][k];
+                agreed += beyond_m_[n][k] * now[n][k];
+            }
+        }
+        share_ = expected > 0 ? std::clamp(agreed / expected, 0.0, 1.0) : 0;
+        beyond_m_ = std::move(now);
+    }
+
+  private:
+    std::vector<Point> beyond_m_;
+    double share_ = 0;
+};
+
 }  // namespace
 
 Record run_runtime(const ContactScene& scene, const Motion& motion, double dt_s, int steps,
@@ -109,11 +141,12 @@ Record run_reference(const ContactScene& scene, const Motion& motion, double dt_
     }
     const std::vector<Pose> rest = rest_poses(scene.asset);
     tools::MotionState state = problem.rest();
-    tools::LinearisedAt where_velocity_leads;
-    where_velocity_leads.stuck_at_target = false;  // as the runtime
+    tools::LinearisedAt where;
+    where.stuck_at_target = false;  // as the runtime
     tools::ContactLimits limits;
     limits.relative_residual = kResidual;
     Record run;
+    LinearisationPoint point;
     bool at_rest = true;
     for (int k = 1; k <= steps; ++k) {
         const std::vector<Pose> poses = motion(rest, k * dt_s);
@@ -126,10 +159,12 @@ Record run_reference(const ContactScene& scene, const Motion& motion, double dt_
             tools[t].pose_before = tools[t].pose;
             tools[t].pose = {poses[t].position_m, poses[t].orientation_wxyz};
         }
+        if (oracle == Oracle::linearised_beyond) where.positions_m = point.ahead(state, dt_s);
         const tools::ContactSolution solution =
             oracle == Oracle::converged
                 ? problem.step(state, scene.held, tools, dt_s, limits)
-                : problem.linearised_step(state, scene.held, tools, dt_s, where_velocity_leads, limits);
+                : problem.linearised_step(state, scene.held, tools, dt_s, where, limits);
+        point.follow(state, solution.state, dt_s);
         state = solution.state;
         if (solution.let_slide > 0 && run.slid_at == 0) run.slid_at = k;
         run.steps.emplace_back();

@@ -31,7 +31,11 @@ struct Record {
 };
 
 /// What the reference solves in a step.
-enum class Oracle { linearised, converged };
+enum class Oracle {
+    linearised,         ///< where velocities lead
+    linearised_beyond,  ///< and on by what the step before went beyond that, as far as it repeats itself
+    converged
+};
 
 /// All tools of the scene, with torque. @throws std::runtime_error when the runtime refuses
 [[nodiscard]] Record run_runtime(const ContactScene& scene, const Motion& motion, double dt_s, int steps,

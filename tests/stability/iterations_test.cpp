@@ -82,9 +82,9 @@ class IterationsInContact : public testing::TestWithParam<Case> {};
 
 // Wanted: within 10 % of a factor made for the touched set. Steps take whole iterations, and they stop by a
 // bound of the force error that is coarser for held nodes than for bonded ones: where a step needs one or
-// two, some steps take one more. Measured: 0.35 of an iteration there, 3 to 9 % elsewhere.
+// two, some steps take one more. Measured: up to 0.47 of an iteration there, 3 to 8 % where it needs six.
 constexpr double kMoreIterations = 1.1;
-constexpr double kPartOfAnIteration = 0.5;
+constexpr double kPartOfAnIteration = 0.6;
 // The correction takes in four nodes a solve: the 25 of the largest case, caught at once, are in after seven.
 constexpr int kTakenIn = 8;
 // Meanwhile held nodes are projected. Measured: 23 iterations at most, against 5.

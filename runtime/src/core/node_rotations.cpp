@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace knead::core {
 namespace {
@@ -38,17 +39,20 @@ void NodeRotations<S>::reset() noexcept {
     for (auto& matrix : matrices_)
         matrix = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     next_share_ = 0;
+    squared_angles_.fill(0);
 }
 
 template <class S>
 void NodeRotations<S>::update(const Elements<S>& elements, std::uint32_t shares) noexcept {
-    for (std::size_t i = next_share_ % shares; i < matrices_.size(); i += shares)
-        update_node(elements, i);
+    Real sum = 0;
+    for (std::size_t i = next_share_; i < matrices_.size(); i += shares)
+        sum += update_node(elements, i);
+    squared_angles_[next_share_] = sum;
     next_share_ = (next_share_ + 1) % shares;
 }
 
 template <class S>
-void NodeRotations<S>::update_node(const Elements<S>& elements, std::size_t node) noexcept {
+Real NodeRotations<S>::update_node(const Elements<S>& elements, std::size_t node) noexcept {
     Eigen::Vector4d sum = Eigen::Vector4d::Zero();
     for (std::uint32_t k = begin_[node]; k < begin_[node + 1]; ++k) {
         const Eigen::Vector4d q = elements.rotation(neighbours_[k].element).coeffs();
@@ -56,10 +60,18 @@ void NodeRotations<S>::update_node(const Elements<S>& elements, std::size_t node
         sum += (q.dot(sum) < 0 ? -1.0 : 1.0) * static_cast<Real>(neighbours_[k].weight) * q;
     }
     const Real norm = sum.norm();
-    if (!(norm > 0) || !std::isfinite(norm)) return;
+    if (!(norm > 0) || !std::isfinite(norm)) return 0;
     const Mat matrix = Quat(Eigen::Vector4d(sum / norm)).toRotationMatrix();
     for (int k = 0; k < 9; ++k)
         matrices_[node][static_cast<std::size_t>(k)] = static_cast<S>(matrix(k / 3, k % 3));
+    const Real half_sine_squared = std::max(Real(0), 1 - sum.w() * sum.w() / (norm * norm));
+    return 4 * half_sine_squared;  // good enough up to a right angle
+}
+
+template <class S>
+Real NodeRotations<S>::mean_angle_rad() const noexcept {
+    const Real sum = std::accumulate(squared_angles_.begin(), squared_angles_.end(), Real(0));
+    return matrices_.empty() ? 0 : std::sqrt(sum / static_cast<Real>(matrices_.size()));
 }
 
 template <class S>

@@ -17,7 +17,7 @@ class NodeRotations {
 
     void reset() noexcept;
 
-    /// Takes one of `shares` shares of the nodes anew, the next one with each call.
+    /// Takes one of `shares` shares (at most 64) of the nodes anew, the next one with each call.
     void update(const Elements<S>& elements, std::uint32_t shares) noexcept;
 
     /// out = R^T v: into the rest state's frame. Packed x, y, z.
@@ -31,23 +31,23 @@ class NodeRotations {
     void turn_back(const NodeField<S>& v, NodeField<S>& out) const noexcept;
     void turn(const NodeField<S>& v, NodeField<S>& out) const noexcept;
 
+    /// Root mean square over the nodes, as last updated.
+    [[nodiscard]] Real mean_angle_rad() const noexcept;
     [[nodiscard]] Mat rotation(std::size_t node) const noexcept;
-
-    /// For save and restore.
-    [[nodiscard]] std::vector<std::array<S, 9>>& matrices() noexcept { return matrices_; }
-    [[nodiscard]] std::uint32_t& next_share() noexcept { return next_share_; }
 
   private:
     struct Neighbour {
         std::uint32_t element = 0;
         float weight = 0;
     };
-    void update_node(const Elements<S>& elements, std::size_t node) noexcept;
+    /// @return its squared angle
+    Real update_node(const Elements<S>& elements, std::size_t node) noexcept;
 
     std::vector<std::uint32_t> begin_;  ///< [free nodes + 1]
     std::vector<Neighbour> neighbours_;
     std::vector<std::array<S, 9>> matrices_;  ///< [free nodes] row-major
     std::uint32_t next_share_ = 0;
+    std::array<Real, 64> squared_angles_{};  ///< [shares] sum over the share's nodes
 };
 
 template <class S>

@@ -14,7 +14,10 @@ constexpr Real kSameDt = 1.25;
 /// Steps that must ask for about the same other dt before numbers are made for it: jitter does not last.
 constexpr int kLastingSteps = 8;
 /// Work on new numbers, floating-point operations per second of simulated time: some 5 % of a core.
-constexpr Real kWorkPerSecond = 1e9;
+constexpr Real kWorkPerSecond = 5e8;
+/// Mean rotation from which on it pays to turn the sparse inverse: mass, which outweighs stiffness there, does
+/// not turn.
+constexpr Real kTurnSparse_rad = 0.15;
 /// Shares of the nodes whose rotations are taken anew, one share in each step.
 constexpr std::uint32_t kRotationShares = 32;
 /// Where dt^2 times stiffness over mass, node for node, is below this on average, the inverse hardly reaches
@@ -195,6 +198,7 @@ void Preconditioner<S>::reset() noexcept {
 template <class S>
 void Preconditioner<S>::begin_step(const System<S>& system) noexcept {
     if (uses_sparse_ || !laplacian()) rotations_.update(system.elements, rotation_shares_);
+    turns_ = !uses_sparse_ || rotations_.mean_angle_rad() > kTurnSparse_rad;
     follow(system.dt_s);
 }
 
@@ -362,6 +366,10 @@ void Preconditioner<S>::solve_corrected(AlignedArray<T>& packed, AlignedArray<T>
 template <class S>
 void Preconditioner<S>::solve(const NodeField<S>& residual, NodeField<S>& out) const noexcept {
     if (uses_sparse_) {
+        if (!turns_) {
+            sparse_.apply(residual, out);
+            return;
+        }
         rotations_.turn_back(residual, turned_);
         sparse_.apply(turned_, turned_);
         rotations_.turn(turned_, out);
@@ -373,12 +381,16 @@ void Preconditioner<S>::solve(const NodeField<S>& residual, NodeField<S>& out) c
 }
 
 template <class S>
+bool Preconditioner<S>::knows_force_owed(const System<S>& system, std::size_t tool) const noexcept {
+    return !system.tools[tool].moves && borders_[tool].force[0].size() > 0 && about_same(system.dt_s, dt_s_);
+}
+
+template <class S>
 Vec Preconditioner<S>::force_owed(const System<S>& system, std::size_t tool,
                                   const NodeField<S>& residual) const noexcept {
     Vec force = Vec::Zero();
     const Border& border = borders_[tool];
-    if (system.tools[tool].moves || border.force[0].size() == 0 || !about_same(system.dt_s, dt_s_))
-        return force;
+    if (!knows_force_owed(system, tool)) return force;
     const std::size_t free = run_of(model_.free_count);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         force[static_cast<int>(axis)] =

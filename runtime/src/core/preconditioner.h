@@ -40,6 +40,7 @@ class Preconditioner {
     /// By how much what is left of the residual would change the force of a bonded tool that does not move, to
     /// first order in how far this is from the inverse: the response to the tool's motion is that of its force
     /// to loads, by symmetry. Zero for other tools.
+    [[nodiscard]] bool knows_force_owed(const System<S>& system, std::size_t tool) const noexcept;
     [[nodiscard]] Vec force_owed(const System<S>& system, std::size_t tool,
                                  const NodeField<S>& residual) const noexcept;
 
@@ -89,6 +90,7 @@ class Preconditioner {
     RestMatrix matrix_;
     SparseInverse<S> sparse_;
     bool uses_sparse_ = true;
+    bool turns_ = false;  ///< the sparse inverse is turned with the matter, in this step
     std::unique_ptr<RestMatrix> laplacian_matrix_;  ///< what the factor is of; none: of matrix_
     std::unique_ptr<SupernodalFactor> factor_;      ///< none: always the sparse inverse
     mutable std::unique_ptr<SupernodalFactor::Scratch> scratch_;

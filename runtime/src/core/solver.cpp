@@ -83,8 +83,9 @@ bool Solver<S>::small_enough(const System<S>& system, const Preconditioner<S>& p
                              Real squared_error) const noexcept {
     const Real drift = limits.velocity_tolerance_m_per_s * system.dt_s;
     if (!(squared_error <= system.model.free_mass_kg * drift * drift)) return false;
-    const Real left = limits.trusts_preconditioner ? kOwedForce : 1;
     for (std::size_t k = 0; k < system.tools.size(); ++k) {
+        const bool owed = limits.trusts_preconditioner && preconditioner.knows_force_owed(system, k);
+        const Real left = owed ? kOwedForce : 1;
         const Real bound = limits.force_tolerance * std::max(solution.force_n[k].norm(), kForceFloor_n);
         if (!(left * preconditioner.force_sensitivity(system, k) * squared_error <= bound * bound)) return false;
     }

@@ -63,6 +63,8 @@ HapticLoop::HapticLoop(Device& device, Simulation& simulation, const HapticConfi
     : device_(&device), simulation_(&simulation), config_(config) {}
 
 Result<HapticLoop> HapticLoop::create(Device& device, Simulation& simulation, const HapticConfig& config) {
+    if (simulation.tool_count() != 1)
+        return bad("the simulation must have one tool, has " + std::to_string(simulation.tool_count()));
     const WorkspaceMap& map = config.workspace;
     if (!(map.scale > 0 && std::isfinite(map.scale)))
         return bad("workspace.scale must be finite and above 0");

@@ -55,6 +55,8 @@ struct Steps {
 using MakeSteps = std::function<Steps()>;
 
 [[noreturn]] void leave(Verdict verdict) {
+    if (kSanitized)
+        _exit(static_cast<int>(verdict));          // the thread sanitizer has a thread of its own: all end
     syscall(SYS_exit, static_cast<int>(verdict));  // not exit_group: strict mode has the former only
     __builtin_unreachable();
 }

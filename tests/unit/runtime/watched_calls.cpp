@@ -43,11 +43,28 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
     if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
     throw std::bad_alloc();
 }
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+    return operator new(size, alignment);
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    ++allocations;
+    return std::malloc(size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+    ++allocations;
+    return std::malloc(size);
+}
 void operator delete(void* memory) noexcept {
     ++frees;
     std::free(memory);
 }
 void operator delete[](void* memory) noexcept {
+    operator delete(memory);
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept {
+    operator delete(memory);
+}
+void operator delete[](void* memory, const std::nothrow_t&) noexcept {
     operator delete(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept {
@@ -60,6 +77,12 @@ void operator delete(void* memory, std::align_val_t) noexcept {
     operator delete(memory);
 }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    operator delete(memory);
+}
+void operator delete[](void* memory, std::align_val_t) noexcept {
+    operator delete(memory);
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
     operator delete(memory);
 }
 

@@ -31,7 +31,8 @@ class KNEAD_RUNTIME_API Simulation {
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
 
-    /// Advances by dt_s with the tool (the hand, if coupled) at `pose` at the end of the step. For one tool.
+    /// Advances by dt_s with the tool (the hand, if coupled) at `pose` at the end of the step. For
+    /// one tool: with several, kStepBadInput.
     /// @param dt_s 0.25e-3 to 20e-3 seconds; may differ from step to step
     StepResult step(const Pose& pose, double dt_s) noexcept;
     /// The same for all tools of the config. @param poses [tool_count()]
@@ -39,7 +40,8 @@ class KNEAD_RUNTIME_API Simulation {
     /// What the last step yielded for one tool.
     [[nodiscard]] const ToolResult& tool(std::size_t index) const noexcept;
 
-    /// Back to the rest state, at rest, tools at their rest poses.
+    /// Back to the rest state, at rest, tools at their rest poses. Takes as long as loading if steps of another
+    /// dt than expected_dt_s came before.
     void reset() noexcept;
 
     [[nodiscard]] std::size_t tool_count() const noexcept;
