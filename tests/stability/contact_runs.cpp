@@ -142,7 +142,6 @@ Record run_reference(const ContactScene& scene, const Motion& motion, double dt_
     const std::vector<Pose> rest = rest_poses(scene.asset);
     tools::MotionState state = problem.rest();
     tools::LinearisedAt where;
-    where.stuck_at_target = false;  // as the runtime
     tools::ContactLimits limits;
     limits.relative_residual = kResidual;
     Record run;
@@ -159,7 +158,7 @@ Record run_reference(const ContactScene& scene, const Motion& motion, double dt_
             tools[t].pose_before = tools[t].pose;
             tools[t].pose = {poses[t].position_m, poses[t].orientation_wxyz};
         }
-        if (oracle == Oracle::linearised_beyond) where.positions_m = point.ahead(state, dt_s);
+        if (oracle == Oracle::linearised) where.positions_m = point.ahead(state, dt_s);
         const tools::ContactSolution solution =
             oracle == Oracle::converged
                 ? problem.step(state, scene.held, tools, dt_s, limits)

@@ -32,8 +32,8 @@ struct Record {
 
 /// What the reference solves in a step.
 enum class Oracle {
-    linearised,         ///< where velocities lead
-    linearised_beyond,  ///< and on by what the step before went beyond that, as far as it repeats itself
+    linearised,  ///< once, where the runtime does: where velocities lead, and on by what the step before went
+                 ///< beyond that, as far as it repeats itself
     converged
 };
 
