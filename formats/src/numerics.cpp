@@ -8,7 +8,7 @@ namespace knead {
 namespace {
 
 constexpr std::array<const char*, 2> kPrecisions{"float32", "float64"};
-constexpr std::array<const char*, 3> kPreconditioners{"factor", "laplacian", "block_jacobi"};
+constexpr std::array<const char*, 3> kPreconditioners{"factor", "laplacian", "sparse_inverse"};
 constexpr std::array<const char*, 3> kStorages{"fixed16", "float32", "float64"};
 constexpr std::array<const char*, 6> kReasons{"low_contrast",   "high_contrast",   "nearly_incompressible",
                                               "few_tetrahedra", "many_tetrahedra", "stiff_path"};
@@ -45,8 +45,8 @@ const char* to_string(NumericsReason reason) noexcept {
 }
 
 std::string to_text(const Numerics& numerics) {
-    static constexpr std::array<const char*, 3> kBy{"the factor of the rest state",
-                                                    "the factor of the scalar Laplacian", "block Jacobi"};
+    static constexpr std::array<const char*, 3> kBy{
+        "the factor of the rest state", "the factor of the scalar Laplacian", "a sparse approximate inverse"};
     std::string text =
         "contrast " + short_number(numerics.contrast) +
         (numerics.press_contrast != numerics.contrast
@@ -57,7 +57,7 @@ std::string to_text(const Numerics& numerics) {
         " (" + words(numerics.arithmetic_reason) + "), preconditioned by " +
         kBy[static_cast<std::size_t>(numerics.preconditioner)] + " (" +
         words(numerics.preconditioner_reason) + ")";
-    if (numerics.preconditioner == Preconditioner::block_jacobi) return text;
+    if (numerics.preconditioner == Preconditioner::sparse_inverse) return text;
     return text + " kept in " + to_string(numerics.factor_storage) + " (" + words(numerics.storage_reason) +
            ")";
 }

@@ -12,7 +12,8 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_source(const fs::path& file) {
-    static const std::set<std::string> kExtensions{".h", ".hpp", ".inl", ".c", ".cpp", ".cmake", ".py", ".sh"};
+    static const std::set<std::string> kExtensions{".h",   ".hpp",   ".inl", ".c",
+                                                   ".cpp", ".cmake", ".py",  ".sh"};
     return file.filename() == "CMakeLists.txt" || kExtensions.count(file.extension().string()) > 0;
 }
 

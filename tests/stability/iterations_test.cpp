@@ -28,9 +28,12 @@ struct Iterations {
     [[nodiscard]] double mean() const { return static_cast<double>(sum) / steps; }
 };
 
-Simulation simulation_of(const Asset& asset, double expected_dt_s) {
+Simulation simulation_of(const Asset& asset, double expected_dt_s, double force_tolerance = 3e-4) {
     SimulationConfig config;
     config.expected_dt_s = expected_dt_s;
+    config.force_tolerance = force_tolerance;
+    // Tighter than float32 can be sure of.
+    if (force_tolerance < 1e-5) config.arithmetic = Arithmetic::float64;
     Result<Simulation> created = Simulation::create(asset, config);
     if (!created.ok()) throw std::runtime_error(created.error().text());
     return std::move(created).value();
@@ -80,20 +83,22 @@ void PrintTo(const Case& c, std::ostream* out) {
 
 class IterationsInContact : public testing::TestWithParam<Case> {};
 
-// Wanted: within 10 % of a factor made for the touched set. Steps take whole iterations, and they stop by a
-// bound of the force error that is coarser for held nodes than for bonded ones: where a step needs one or
-// two, some steps take one more. Measured: up to 0.47 of an iteration there, 3 to 8 % where it needs six.
+// What the issue asks for, of the preconditioner; and what steps that take whole iterations add to it. At a
+// tolerance where a step needs several: at the default many need one, and one more is 100 %.
 constexpr double kMoreIterations = 1.1;
-constexpr double kPartOfAnIteration = 0.6;
-// The correction takes in four nodes a solve: the 25 of the largest case, caught at once, are in after seven.
-constexpr int kTakenIn = 8;
-// Meanwhile held nodes are projected. Measured: 23 iterations at most, against 5.
-constexpr std::uint32_t kWhileTakenIn = 32;
+constexpr double kPartOfAnIteration = 0.25;
+constexpr double kTightTolerance = 1e-7;
+// The correction takes in sixteen nodes a solve: the 25 of the largest case, caught at once, soon are.
+constexpr int kTakenIn = 3;
+// Meanwhile held nodes are projected.
+constexpr std::uint32_t kWhileTakenIn = 64;
 
 TEST_P(IterationsInContact, Are_those_of_a_run_in_which_the_same_nodes_are_eliminated) {
     const auto [cells, nu, dt_s] = GetParam();
-    Simulation touching = simulation_of(held_in_the_middle(cells, nu, ToolContact::sticking), dt_s);
-    Simulation bonded = simulation_of(held_in_the_middle(cells, nu, ToolContact::bonded), dt_s);
+    Simulation touching =
+        simulation_of(held_in_the_middle(cells, nu, ToolContact::sticking), dt_s, kTightTolerance);
+    Simulation bonded =
+        simulation_of(held_in_the_middle(cells, nu, ToolContact::bonded), dt_s, kTightTolerance);
     const Pose rest = touching.tool_rest_pose();
     Iterations with_contact, eliminated, first;
     for (int k = 1; k <= kPressSteps; ++k) {
@@ -105,8 +110,7 @@ TEST_P(IterationsInContact, Are_those_of_a_run_in_which_the_same_nodes_are_elimi
         if (k > kTakenIn) eliminated.add(b);
     }
     EXPECT_EQ(first.status | with_contact.status | eliminated.status, kStepOk);
-    EXPECT_LE(with_contact.mean(),
-              std::max(kMoreIterations * eliminated.mean(), eliminated.mean() + kPartOfAnIteration));
+    EXPECT_LE(with_contact.mean(), kMoreIterations * eliminated.mean() + kPartOfAnIteration);
     EXPECT_LE(first.largest, kWhileTakenIn);
     RecordProperty("touching", testing::PrintToString(with_contact.mean()));
     RecordProperty("eliminated", testing::PrintToString(eliminated.mean()));

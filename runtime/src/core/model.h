@@ -31,11 +31,11 @@ struct Model {
     Field rest_m;               ///< [nodes]
     std::vector<Real> mass_kg;  ///< [nodes] a quarter of each tetrahedron's mass to each of its nodes
     std::uint32_t free_count = 0;
-    std::uint32_t moving_count = 0;        ///< free ones and those of bonded tools
-    std::vector<Range> bonded;             ///< [tools] nodes that the tool carries; empty unless it is bonded
+    std::uint32_t moving_count = 0;  ///< free ones and those of bonded tools
+    std::vector<Range> bonded;       ///< [tools] nodes that the tool carries; empty unless it is bonded
     std::vector<std::uint32_t> from_asset;  ///< [nodes] number here of each node of the asset
-    Real free_mass_kg = 0;                 ///< of the free nodes together
-    Real size_m = 0;                       ///< diagonal of the rest state's bounding box
+    Real free_mass_kg = 0;                  ///< of the free nodes together
+    Real size_m = 0;                        ///< diagonal of the rest state's bounding box
     Vec gravity_m_per_s2 = Vec::Zero();
     Real damping_per_s = 0;  ///< mass-proportional
 };

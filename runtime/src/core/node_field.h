@@ -14,8 +14,8 @@ constexpr std::size_t run_of(std::size_t nodes) {
     return (4 * nodes + 15) / 16 * 16;
 }
 
-/// A vector for every node, as the kernels want it: x, y, z, 0. Behind the last node stands one of zeros, which
-/// lanes without a tetrahedron read and write. S is float or double.
+/// A vector for every node, as the kernels want it: x, y, z, 0. Behind the last node stands one of zeros,
+/// which lanes without a tetrahedron read and write. S is float or double.
 template <class S>
 class NodeField {
   public:

@@ -37,7 +37,9 @@ class NodeReader {
 
   private:
     void add(const NodeField<float>& field) { (floats_[0] == nullptr ? floats_[0] : floats_[1]) = &field; }
-    void add(const NodeField<double>& field) { (doubles_[0] == nullptr ? doubles_[0] : doubles_[1]) = &field; }
+    void add(const NodeField<double>& field) {
+        (doubles_[0] == nullptr ? doubles_[0] : doubles_[1]) = &field;
+    }
 
     const Field* rest_;
     const NodeField<float>* floats_[2] = {};

@@ -8,7 +8,8 @@
 namespace knead::core {
 namespace {
 
-/// Tetrahedra whose rotations a node's is the mean of: enough for a preconditioner, few enough to visit often.
+/// Tetrahedra whose rotations a node's is the mean of: enough for a preconditioner, few enough to visit
+/// often.
 constexpr std::size_t kStiffest = 6;
 
 }  // namespace

@@ -8,15 +8,15 @@
 namespace knead::core {
 namespace {
 
-/// A dt that differs by no more than this factor is as good as the one the numbers were made for: the condition
-/// number becomes its square at most.
+/// A dt that differs by no more than this factor is as good as the one the numbers were made for: the
+/// condition number becomes its square at most.
 constexpr Real kSameDt = 1.25;
 /// Steps that must ask for about the same other dt before numbers are made for it: jitter does not last.
 constexpr int kLastingSteps = 8;
-/// Work on new numbers, floating-point operations per second of simulated time: some 5 % of a core.
-constexpr Real kWorkPerSecond = 5e8;
-/// Mean rotation from which on it pays to turn the sparse inverse: mass, which outweighs stiffness there, does
-/// not turn.
+/// Work on new numbers, floating-point operations per second of simulated time: some 10 % of a core.
+constexpr Real kWorkPerSecond = 1e9;
+/// Mean rotation from which on it pays to turn the sparse inverse: mass, which outweighs stiffness there,
+/// does not turn.
 constexpr Real kTurnSparse_rad = 0.15;
 /// Shares of the nodes whose rotations are taken anew, one share in each step.
 constexpr std::uint32_t kRotationShares = 32;
@@ -28,7 +28,9 @@ constexpr Real kSparseStiffness = 5;
 /// square, and takes 9 MB here.
 constexpr std::size_t kMostTouchable = 512;
 /// Nodes that the correction takes in at a time; others are projected until their turn comes.
-constexpr std::size_t kInsertions = 4;
+constexpr std::size_t kInsertions = 16;
+/// Held directions that have turned by less (squared) are the same as far as the tool's stiffness goes.
+constexpr Real kSameHold = 1e-3;
 /// Beyond this contrast stiff matter must be followed at once: a lag of its rotation weighs too much.
 constexpr double kLaggingContrast = 1e3;
 
@@ -46,6 +48,13 @@ FactorStorage stored(knead::FactorStorage storage) {
             break;
     }
     return FactorStorage::double_precision;
+}
+
+Real largest_eigenvalue(const Mat& symmetric) {
+    return Eigen::SelfAdjointEigenSolver<Mat>()
+        .computeDirect(symmetric, Eigen::EigenvaluesOnly)
+        .eigenvalues()
+        .maxCoeff();
 }
 
 /// Bound of the largest eigenvalue of every node's diagonal block of K.
@@ -68,8 +77,7 @@ std::vector<Real> node_stiffnesses(const Model& model) {
 
 template <class S>
 Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, const Numerics& numerics,
-                                  SimdTarget target, Real dt_s,
-                                  const std::vector<std::uint32_t>& touchable)
+                                  SimdTarget target, Real dt_s, const std::vector<std::uint32_t>& touchable)
     : model_(model),
       fields_(kernels(target).field<S>()),
       expected_dt_s_(dt_s),
@@ -87,12 +95,15 @@ Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, con
       solved_double_(3 * model.free_count),
       node_stiffness_(node_stiffnesses(model)),
       held_stiffness_(model.bonded.size(), 0),
+      felt_(touchable.size()),
+      felt_at_(model.free_count, 0),
+      felt_stiffness_(model.bonded.size(), Mat::Zero()),
       tool_inverse_(model.bonded.size(), Mat::Zero()),
       stiffness_per_s2_(std::accumulate(node_stiffness_.begin(), node_stiffness_.end(), Real(0)) /
                         model.free_mass_kg) {
     if (numerics.preconditioner == knead::Preconditioner::laplacian)
         laplacian_matrix_ = std::make_unique<RestMatrix>(model, RestMatrix::Kind::laplacian);
-    if (numerics.preconditioner != knead::Preconditioner::block_jacobi) {
+    if (numerics.preconditioner != knead::Preconditioner::sparse_inverse) {
         const RestMatrix& factored = laplacian() ? *laplacian_matrix_ : matrix_;
         factor_ = std::make_unique<SupernodalFactor>(factored.pattern(), factored.block_size(),
                                                      stored(numerics.factor_storage), target);
@@ -114,7 +125,8 @@ bool Preconditioner<S>::sparse_suffices(Real dt_s) const noexcept {
 
 template <class S>
 bool Preconditioner<S>::is_close(Real dt_s) const noexcept {
-    return about_same(dt_s, dt_s_) && (!uses_sparse_ || dt_s_ * dt_s_ * stiffness_per_s2_ <= kSparseStiffness);
+    return about_same(dt_s, dt_s_) &&
+           (!uses_sparse_ || dt_s_ * dt_s_ * stiffness_per_s2_ <= kSparseStiffness);
 }
 
 /// Everything for one dt at once: when loading and on reset.
@@ -123,6 +135,7 @@ void Preconditioner<S>::make_for(Real dt_s) noexcept {
     dt_s_ = dt_s;
     const Real inertia = 1 + model_.damping_per_s * dt_s;
     matrix_.set(dt_s, inertia);
+    matrix_dt_s_ = dt_s;
     if (laplacian()) laplacian_matrix_->set(dt_s, inertia);
     uses_sparse_ = sparse_suffices(dt_s);
     if (!uses_sparse_) {
@@ -176,10 +189,7 @@ void Preconditioner<S>::find_responses() noexcept {
             }
         }
         border.following_kg = (0.5 * (border.following_kg + border.following_kg.transpose())).eval();
-        border.sensitivity = Eigen::SelfAdjointEigenSolver<Mat>()
-                                 .computeDirect(border.following_kg, Eigen::EigenvaluesOnly)
-                                 .eigenvalues()
-                                 .maxCoeff();
+        border.sensitivity = largest_eigenvalue(border.following_kg);
     }
 }
 
@@ -188,6 +198,8 @@ void Preconditioner<S>::reset() noexcept {
     rotations_.reset();
     if (correction_) correction_->clear();
     corrects_ = false;
+    felt_count_ = 0;
+    std::fill(held_stiffness_.begin(), held_stiffness_.end(), Real(0));
     wanted_dt_s_ = 0;
     steps_wanted_ = 0;
     // Steps depend on nothing but the steps since the reset.
@@ -220,6 +232,7 @@ void Preconditioner<S>::follow(Real dt_s) noexcept {
     if (steps_wanted_ < kLastingSteps) return;
     const Real inertia = 1 + model_.damping_per_s * dt_s;
     matrix_.set(dt_s, inertia);
+    matrix_dt_s_ = dt_s;
     if (laplacian()) laplacian_matrix_->set(dt_s, inertia);
     next_row_ = 0;
     job_ = sparse_suffices(dt_s) ? Job::sparse : Job::factor;
@@ -231,7 +244,8 @@ template <class S>
 bool Preconditioner<S>::advance(std::uint64_t work) noexcept {
     if (job_ == Job::sparse) {
         // Rows of two different dt go together: each row on its own is as good as any.
-        const auto rows = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, work / sparse_.largest_row()));
+        const auto rows =
+            static_cast<std::uint32_t>(std::max<std::uint64_t>(1, work / sparse_.largest_row()));
         const std::uint32_t last = std::min(sparse_.row_count(), next_row_ + rows);
         sparse_.make(matrix_.values(), next_row_, last);
         next_row_ = last;
@@ -260,15 +274,14 @@ bool Preconditioner<S>::advance(std::uint64_t work) noexcept {
 template <class S>
 void Preconditioner<S>::hold(const System<S>& system) noexcept {
     for (std::size_t k = 0; k < system.tools.size(); ++k) {
-        held_stiffness_[k] = 0;
         const bool bonded = borders_[k].force[0].size() > 0;
         const Mat felt = dt_s_ * dt_s_ * borders_[k].stiffness - borders_[k].following_kg;
         tool_inverse_[k] = system.tool_diagonal_kg(k) * Mat::Identity();
         if (bonded) tool_inverse_[k] += felt;
     }
     const Real dt2 = system.dt_s * system.dt_s;
+    find_held_stiffness(system);
     for (const Constraint& c : system.constraints) {
-        held_stiffness_[c.tool] += node_stiffness_[c.node];
         tool_inverse_[c.tool] +=
             (system.inertia * model_.mass_kg[c.node] + dt2 * node_stiffness_[c.node]) * c.held;
     }
@@ -276,6 +289,42 @@ void Preconditioner<S>::hold(const System<S>& system) noexcept {
         if (system.tools[k].moves) tool_inverse_[k] = Mat(tool_inverse_[k].inverse());
     }
     correct_for(system);
+}
+
+/// What a tool feels of the nodes that it holds, with all others still: the sum of held K held over all pairs
+/// of them, at rest. Found anew when they change.
+template <class S>
+void Preconditioner<S>::find_held_stiffness(const System<S>& system) noexcept {
+    const std::vector<Constraint>& constraints = system.constraints;
+    bool same = constraints.size() == felt_count_;
+    for (std::size_t k = 0; same && k < felt_count_; ++k) {
+        same = constraints[k].node == felt_[k].node && constraints[k].tool == felt_[k].tool &&
+               (constraints[k].held - felt_[k].held).squaredNorm() < kSameHold;
+    }
+    if (same) return;
+    felt_count_ = std::min(constraints.size(), felt_.size());
+    std::fill(felt_stiffness_.begin(), felt_stiffness_.end(), Mat::Zero());
+    for (std::uint32_t k = 0; k < felt_count_; ++k) {
+        felt_[k] = {constraints[k].node, constraints[k].tool, constraints[k].held};
+        felt_at_[constraints[k].node] = k;
+    }
+    const MatrixPattern& pattern = matrix_.pattern();
+    const Real inertia = 1 + model_.damping_per_s * matrix_dt_s_;
+    for (std::uint32_t k = 0; k < felt_count_; ++k) {
+        const Felt& column = felt_[k];
+        for (std::uint32_t e = pattern.column_begin[column.node]; e < pattern.column_begin[column.node + 1];
+             ++e) {
+            const std::uint32_t row = pattern.row_nodes[e];
+            const std::uint32_t at = felt_at_[row];
+            if (at >= felt_count_ || felt_[at].node != row || felt_[at].tool != column.tool) continue;
+            Mat block = Eigen::Map<const Mat>(matrix_.values() + std::size_t{9} * e);
+            if (row == column.node) block.diagonal().array() -= inertia * model_.mass_kg[row];
+            const Mat felt = felt_[at].held * block * column.held;
+            felt_stiffness_[column.tool] += row == column.node ? felt : Mat(felt + felt.transpose());
+        }
+    }
+    for (std::size_t t = 0; t < held_stiffness_.size(); ++t)
+        held_stiffness_[t] = largest_eigenvalue(felt_stiffness_[t]) / (matrix_dt_s_ * matrix_dt_s_);
 }
 
 /// Lets the correction follow the constraints. A tool that moves and is bonded has a border of its own, which
@@ -319,8 +368,8 @@ void Preconditioner<S>::apply(const System<S>& system, const Unknowns<S>& residu
         const bool follows = border.force[0].size() > 0;
         Vec rest = residual.tools[k];
         for (std::size_t axis = 0; follows && axis < 3; ++axis) {
-            rest[static_cast<int>(axis)] -= static_cast<Real>(
-                fields_.dot(free, border.response[axis].data(), residual.nodes.data()));
+            rest[static_cast<int>(axis)] -=
+                static_cast<Real>(fields_.dot(free, border.response[axis].data(), residual.nodes.data()));
         }
         out.tools[k] = tool_inverse_[k] * rest;
         for (std::size_t axis = 0; follows && axis < 3; ++axis) {
@@ -408,9 +457,9 @@ Real Preconditioner<S>::force_sensitivity(const System<S>& system, std::size_t t
     const Real dt2 = system.dt_s * system.dt_s;
     // The response grows with 1 / dt, so that of a shorter dt is a bound; of a longer one it is none.
     const Real still = dt2 * borders_[tool].stiffness.trace();
-    const Real following = system.dt_s >= dt_s_ ? borders_[tool].sensitivity * (dt2 * dt2) /
-                                                      (dt_s_ * dt_s_ * dt_s_ * dt_s_)
-                                                : still;
+    const Real following = system.dt_s >= dt_s_
+                               ? borders_[tool].sensitivity * (dt2 * dt2) / (dt_s_ * dt_s_ * dt_s_ * dt_s_)
+                               : still;
     return (std::min(still, following) + dt2 * held_stiffness_[tool]) / (dt2 * dt2);
 }
 

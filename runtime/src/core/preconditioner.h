@@ -21,7 +21,8 @@ namespace knead::core {
 template <class S>
 class Preconditioner {
   public:
-    /// @param elements not yet linearised; left at rest  @param touchable free nodes that constraints may hold
+    /// @param elements not yet linearised; left at rest  @param touchable free nodes that constraints may
+    /// hold
     Preconditioner(const Model& model, Elements<S>& elements, const Numerics& numerics, SimdTarget target,
                    Real dt_s, const std::vector<std::uint32_t>& touchable);
 
@@ -37,9 +38,9 @@ class Preconditioner {
     /// @param residual projected  @param out expanded
     void apply(const System<S>& system, const Unknowns<S>& residual, Unknowns<S>& out) const noexcept;
 
-    /// By how much what is left of the residual would change the force of a bonded tool that does not move, to
-    /// first order in how far this is from the inverse: the response to the tool's motion is that of its force
-    /// to loads, by symmetry. Zero for other tools.
+    /// By how much what is left of the residual would change the force of a bonded tool that does not move,
+    /// to first order in how far this is from the inverse: the response to the tool's motion is that of its
+    /// force to loads, by symmetry. Zero for other tools.
     [[nodiscard]] bool knows_force_owed(const System<S>& system, std::size_t tool) const noexcept;
     [[nodiscard]] Vec force_owed(const System<S>& system, std::size_t tool,
                                  const NodeField<S>& residual) const noexcept;
@@ -63,6 +64,7 @@ class Preconditioner {
         Real sensitivity = 0;            ///< largest eigenvalue of following_kg
     };
 
+    void find_held_stiffness(const System<S>& system) noexcept;
     void correct_for(const System<S>& system) noexcept;
     [[nodiscard]] bool sparse_suffices(Real dt_s) const noexcept;
     void make_for(Real dt_s) noexcept;
@@ -102,9 +104,19 @@ class Preconditioner {
     bool corrects_ = false;         ///< for the constraints of now
     mutable AlignedArray<float> packed_float_, solved_float_;
     mutable AlignedArray<double> packed_double_, solved_double_;
-    std::vector<Border> borders_;         ///< [tools]
-    std::vector<Real> node_stiffness_;    ///< [free nodes] bound of the diagonal block, N/m
-    std::vector<Real> held_stiffness_;    ///< [tools] of the nodes in the constraints together, N/m
+    std::vector<Border> borders_;       ///< [tools]
+    std::vector<Real> node_stiffness_;  ///< [free nodes] bound of the diagonal block, N/m
+    std::vector<Real> held_stiffness_;  ///< [tools] of the nodes in the constraints together, N/m
+    /// Of which nodes that is.
+    struct Felt {
+        std::uint32_t node = 0, tool = 0;
+        Mat held = Mat::Zero();
+    };
+    std::vector<Felt> felt_;
+    std::size_t felt_count_ = 0;
+    std::vector<std::uint32_t> felt_at_;  ///< [free nodes] index in felt_, if that says so too
+    std::vector<Mat> felt_stiffness_;     ///< [tools]
+    Real matrix_dt_s_ = 0;                ///< of matrix_
     std::vector<Mat> tool_inverse_;       ///< [tools] moving ones: of what is left for the tool itself
 
     /// New numbers for another dt, what is being made.

@@ -40,8 +40,8 @@ Solver<S>::Solver(const Model& model, std::size_t tools, std::size_t max_constra
 
 template <class S>
 Real Solver<S>::dot(const System<S>& system, const Unknowns<S>& a, const Unknowns<S>& b) const noexcept {
-    Real sum = static_cast<Real>(
-        system.fields.dot(run_of(system.model.free_count), a.nodes.data(), b.nodes.data()));
+    Real sum =
+        static_cast<Real>(system.fields.dot(run_of(system.model.free_count), a.nodes.data(), b.nodes.data()));
     for (std::size_t k = 0; k < system.tools.size(); ++k) {
         if (system.tools[k].moves) sum += a.tools[k].dot(b.tools[k]);
     }
@@ -87,7 +87,8 @@ bool Solver<S>::small_enough(const System<S>& system, const Preconditioner<S>& p
         const bool owed = limits.trusts_preconditioner && preconditioner.knows_force_owed(system, k);
         const Real left = owed ? kOwedForce : 1;
         const Real bound = limits.force_tolerance * std::max(solution.force_n[k].norm(), kForceFloor_n);
-        if (!(left * preconditioner.force_sensitivity(system, k) * squared_error <= bound * bound)) return false;
+        if (!(left * preconditioner.force_sensitivity(system, k) * squared_error <= bound * bound))
+            return false;
     }
     return true;
 }
@@ -114,8 +115,7 @@ void Solver<S>::start(const System<S>& system, const NodeField<S>& load, Solutio
     for (std::size_t k = 0; k < system.tools.size(); ++k) {
         const ToolUnknown& tool = system.tools[k];
         residual_.tools[k].setZero();
-        if (tool.moves)
-            residual_.tools[k] = -dt2 * tool.force_n - system.tool_diagonal_kg(k) * d.tools[k];
+        if (tool.moves) residual_.tools[k] = -dt2 * tool.force_n - system.tool_diagonal_kg(k) * d.tools[k];
     }
     keep_rows(system, residual_.nodes, solution.row_n);
     for (std::size_t k = 0; k < system.constraints.size(); ++k) {
@@ -130,8 +130,7 @@ void Solver<S>::start(const System<S>& system, const NodeField<S>& load, Solutio
 
 template <class S>
 void Solver<S>::solve(const System<S>& system, const Preconditioner<S>& preconditioner,
-                      const NodeField<S>& load, const SolverLimits& limits,
-                      Solution<S>& solution) noexcept {
+                      const NodeField<S>& load, const SolverLimits& limits, Solution<S>& solution) noexcept {
     start(system, load, solution);
     const FieldKernels<S>& fields = system.fields;
     const std::size_t moving = run_of(system.model.moving_count);
@@ -148,8 +147,7 @@ void Solver<S>::solve(const System<S>& system, const Preconditioner<S>& precondi
         system.apply(direction_, product_.nodes);
         keep_rows(system, product_.nodes, product_rows_);
         for (std::size_t k = 0; k < system.tools.size(); ++k) {
-            if (system.tools[k].moves)
-                product_.tools[k] = system.tool_diagonal_kg(k) * direction_.tools[k];
+            if (system.tools[k].moves) product_.tools[k] = system.tool_diagonal_kg(k) * direction_.tools[k];
         }
         system.project(product_);
         const Real curvature = dot(system, direction_, product_);

@@ -53,7 +53,8 @@ class Solver {
     [[nodiscard]] bool small_enough(const System<S>& system, const Preconditioner<S>& preconditioner,
                                     const SolverLimits& limits, const Solution<S>& solution,
                                     Real squared_error) const noexcept;
-    [[nodiscard]] Real dot(const System<S>& system, const Unknowns<S>& a, const Unknowns<S>& b) const noexcept;
+    [[nodiscard]] Real dot(const System<S>& system, const Unknowns<S>& a,
+                           const Unknowns<S>& b) const noexcept;
 
     Unknowns<S> residual_, direction_, product_, preconditioned_;
     std::vector<Vec> product_rows_;

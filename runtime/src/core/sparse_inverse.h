@@ -7,13 +7,13 @@
 
 namespace knead::core {
 
-/// A cheap approximate inverse of a symmetric positive definite matrix of 3 x 3 blocks: A^-1 ~ G^T G with G as
-/// sparse as the lower triangle of A.
+/// A cheap approximate inverse of a symmetric positive definite matrix of 3 x 3 blocks: A^-1 ~ G^T G with G
+/// as sparse as the lower triangle of A.
 ///
 /// Row i of G is what the Cholesky factor of the small matrix over node i and its earlier neighbours says of
 /// node i. Good where the inverse reaches no farther than the neighbours, which is where mass outweighs
-/// stiffness (short steps, soft matter, coarse meshes); positive definite whatever the numbers. Rows depend on
-/// nothing but A and can be made anew one by one. S is float or double. Allocates in the constructor only.
+/// stiffness (short steps, soft matter, coarse meshes); positive definite whatever the numbers. Rows depend
+/// on nothing but A and can be made anew one by one. S is float or double. Allocates in the constructor only.
 /// Source: Kolotilina and Yeremin, Factorized sparse approximate inverse preconditionings I (1993).
 template <class S>
 class SparseInverse {
@@ -30,12 +30,12 @@ class SparseInverse {
     [[nodiscard]] std::uint32_t row_count() const noexcept { return pattern_.node_count; }
     /// Floating-point operations of the largest row.
     [[nodiscard]] std::uint64_t largest_row() const noexcept { return most_ * most_ * most_ / 3; }
-    [[nodiscard]] std::size_t bytes() const noexcept { return lower_.blocks.bytes() + upper_.blocks.bytes();
-    }
+    [[nodiscard]] std::size_t bytes() const noexcept { return lower_.blocks.bytes() + upper_.blocks.bytes(); }
 
   private:
     void make_row(const double* values, std::uint32_t row) noexcept;
-    [[nodiscard]] double value(const double* values, std::uint32_t i, std::uint32_t j, int r, int c) const noexcept;
+    [[nodiscard]] double value(const double* values, std::uint32_t i, std::uint32_t j, int r,
+                               int c) const noexcept;
 
     /// G or G^T in the order of the kernels.
     struct Groups {

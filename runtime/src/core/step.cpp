@@ -95,7 +95,7 @@ class TypedStepper final : public Stepper {
   private:
     /// A tool between steps and in the one under way.
     struct Tool {
-        Frame frame;  ///< predicted
+        Frame frame;                                                             ///< predicted
         Vec position = Vec::Zero(), velocity = Vec::Zero(), hand = Vec::Zero();  ///< after the last step
         /// Of the nodes bonded to it: place in the tool's frame, velocity, and displacement (all in double,
         /// because a force is read from their changes).
@@ -132,14 +132,14 @@ class TypedStepper final : public Stepper {
 
     // State: what a step starts from.
     NodeField<S> displacements_, velocities_;
-    /// By how much the last step ended beyond where velocities alone would have carried it: about as far as the
-    /// next one will, while forces change smoothly.
+    /// By how much the last step ended beyond where velocities alone would have carried it: about as far as
+    /// the next one will, while forces change smoothly.
     NodeField<S> beyond_;
     Real beyond_dt_s_ = 1;
-    Real smoothness_ = 0;  ///< how well that was true of the last step, 0 to 1
+    Real smoothness_ = 0;    ///< how well that was true of the last step, 0 to 1
     Real beyond_share_ = 0;  ///< of beyond_ that is predicted
-    /// What the last solve left of its right-hand side, kg m: an impulse that was not given. It is given in the
-    /// next step, so that small errors do not add up to a drift.
+    /// What the last solve left of its right-hand side, kg m: an impulse that was not given. It is given in
+    /// the next step, so that small errors do not add up to a drift.
     NodeField<S> owed_;
     Real owed_dt_s_ = 1;
     std::vector<Tool> tools_;
@@ -168,12 +168,11 @@ TypedStepper<S>::TypedStepper(const Asset& asset, const SimulationConfig& config
       solver_(model_, config.tools.size(), contact_.max_constraints()),
       trusts_preconditioner_(numerics.contrast <= kTrustedContrast &&
                              numerics.max_poissons_ratio <= kTrustedPoissonsRatio),
-      unilateral_(std::any_of(config.tools.begin(), config.tools.end(), [&](std::size_t k) {
-          return asset.tools[k].contact != ToolContact::bonded;
-      })) {
+      unilateral_(std::any_of(config.tools.begin(), config.tools.end(),
+                              [&](std::size_t k) { return asset.tools[k].contact != ToolContact::bonded; })) {
     const std::size_t nodes = model_.rest_m.size(), count = config.tools.size();
-    for (NodeField<S>* field :
-         {&displacements_, &velocities_, &beyond_, &owed_, &predicted_, &load_, &scratch_, &solution_.displacement.nodes}) {
+    for (NodeField<S>* field : {&displacements_, &velocities_, &beyond_, &owed_, &predicted_, &load_,
+                                &scratch_, &solution_.displacement.nodes}) {
         *field = NodeField<S>(nodes);
     }
     tools_.resize(count);
@@ -222,8 +221,14 @@ StepResult TypedStepper<S>::step(const Pose* poses, double dt_s) noexcept {
     for (std::size_t k = 0; k < hands_.size(); ++k) {
         if (!to_frame(poses[k], hands_[k])) return refuse(kStepBadInput);
     }
-    const System<S> system{model_,    elements_, masses_, fields_, contact_.constraints(),
-                           unknowns_, dt_s,      1 + model_.damping_per_s * dt_s};
+    const System<S> system{model_,
+                           elements_,
+                           masses_,
+                           fields_,
+                           contact_.constraints(),
+                           unknowns_,
+                           dt_s,
+                           1 + model_.damping_per_s * dt_s};
 
     // 1. Predict where inertia carries everything.
     predict(hands_.data(), dt_s);
@@ -378,7 +383,8 @@ Real TypedStepper<S>::travel_m() const noexcept {
 
 template <class S>
 bool TypedStepper<S>::finite() const noexcept {
-    // A sum of squares is finite only if every term is. Divided by the smallest step, it covers the velocities.
+    // A sum of squares is finite only if every term is. Divided by the smallest step, it covers the
+    // velocities.
     const std::size_t free = run_of(model_.free_count);
     const NodeField<S>& d = solution_.displacement.nodes;
     Real sum = static_cast<Real>(fields_.dot(free, predicted_.data(), predicted_.data())) +
@@ -449,8 +455,7 @@ void TypedStepper<S>::find_results(Real dt) noexcept {
         ToolResult& result = results_[k];
         result.force_n = to_array(solution_.force_n[k]);
         result.tool_position_m = to_array(tool.position);
-        result.touched_nodes =
-            contact_.load(k).touched + static_cast<std::uint32_t>(tool.anchors.size());
+        result.touched_nodes = contact_.load(k).touched + static_cast<std::uint32_t>(tool.anchors.size());
         if (!config_.with_torque) continue;
         Vec torque = contact_.load(k).torque_n_m;
         for (std::size_t i = 0; i < tool.anchors.size(); ++i) {

@@ -6,8 +6,8 @@
 
 namespace knead::core {
 
-/// One tool in the equations: where it is predicted and, if it is coupled to the hand, three more unknowns, its
-/// displacement t beyond the prediction against mass, spring and damper.
+/// One tool in the equations: where it is predicted and, if it is coupled to the hand, three more unknowns,
+/// its displacement t beyond the prediction against mass, spring and damper.
 struct ToolUnknown {
     bool moves = false;  ///< false: the tool is where the hand is, t = 0
     Real mass_kg = 0;
@@ -32,9 +32,9 @@ struct Masses {
 
 /// The linear system of one step, A d = b with A = (1 + c dt) M + dt^2 K(R), never assembled.
 ///
-/// Nodes of a bonded tool move with it, nodes of `constraints` in part. Two forms of a vector: *expanded*, with
-/// the displacements of such nodes as they are, and *projected*, where their rows have been moved to the tool.
-/// A maps expanded to rows; project() makes rows a residual.
+/// Nodes of a bonded tool move with it, nodes of `constraints` in part. Two forms of a vector: *expanded*,
+/// with the displacements of such nodes as they are, and *projected*, where their rows have been moved to the
+/// tool. A maps expanded to rows; project() makes rows a residual.
 template <class S>
 struct System {
     const Model& model;

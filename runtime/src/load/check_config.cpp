@@ -48,7 +48,8 @@ Status check_config(const SimulationConfig& config, const Asset& asset) {
         return out_of_range("expected_dt_s", config.expected_dt_s, "0.25e-3 to 20e-3");
     }
     if (config.arithmetic > Arithmetic::float64) {
-        return out_of_range("arithmetic", static_cast<double>(config.arithmetic), "automatic, float32 or float64");
+        return out_of_range("arithmetic", static_cast<double>(config.arithmetic),
+                            "automatic, float32 or float64");
     }
     if (!(config.force_tolerance > 0 && config.force_tolerance <= 0.1)) {
         return out_of_range("force_tolerance", config.force_tolerance, "above 0 and at most 0.1");

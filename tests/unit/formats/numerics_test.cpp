@@ -44,10 +44,10 @@ TEST(Choice_of_numerics, Changes_exactly_at_its_limits) {
         {16000, 10, 0.3, P::float32, C::factor, S::fixed16},
         {16001, 10, 0.3, P::float32, C::laplacian, S::fixed16},
         {16001, 10, 0.449, P::float32, C::laplacian, S::fixed16},
-        {16001, 10, 0.45, P::float32, C::block_jacobi, S::fixed16},
+        {16001, 10, 0.45, P::float32, C::sparse_inverse, S::fixed16},
         {16001, 1e3, 0.3, P::float32, C::laplacian, S::float32},
-        {16001, 1.001e3, 0.3, P::float32, C::block_jacobi, S::float32},
-        {48000, 1e6, 0.49, P::float64, C::block_jacobi, S::float32},
+        {16001, 1.001e3, 0.3, P::float32, C::sparse_inverse, S::float32},
+        {48000, 1e6, 0.49, P::float64, C::sparse_inverse, S::float32},
     };
     for (const Case& c : cases) {
         const Numerics chosen = choose_numerics(asset_of(c.tetrahedra, c.contrast, c.poissons_ratio));
@@ -101,7 +101,7 @@ TEST(Choice_of_numerics, Says_why_in_one_sentence) {
         "preconditioned by the factor of the rest state (few tetrahedra) kept in fixed16 (low contrast)");
     EXPECT_EQ(to_text(choose_numerics(asset_of(20000, 10, 0.46))),
               "contrast 10, Poisson's ratio up to 0.46, 20000 tetrahedra: solved in float32 (low contrast), "
-              "preconditioned by block Jacobi (nearly incompressible)");
+              "preconditioned by a sparse approximate inverse (nearly incompressible)");
     Asset stiff_path = with_a_stiff_path(1e6);
     stiff_path.tools.resize(1);
     EXPECT_EQ(
@@ -113,7 +113,7 @@ TEST(Choice_of_numerics, Says_why_in_one_sentence) {
     const Numerics hard = choose_numerics(asset_of(20000, 1e8, 0.3));
     EXPECT_STREQ(to_string(hard.arithmetic), "float64");
     EXPECT_STREQ(to_string(hard.factor_storage), "float64");
-    EXPECT_STREQ(to_string(hard.preconditioner), "block_jacobi");
+    EXPECT_STREQ(to_string(hard.preconditioner), "sparse_inverse");
     EXPECT_STREQ(to_string(hard.preconditioner_reason), "high_contrast");
     EXPECT_STREQ(to_string(choose_numerics(asset_of(20000, 10, 0.3)).preconditioner_reason),
                  "many_tetrahedra");

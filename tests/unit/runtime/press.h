@@ -28,7 +28,9 @@ class Stepper {
     }
 
     StepResult step(const Pose& pose, double dt_s) { return stepper_->step(&pose, dt_s); }
-    StepResult step(const std::vector<Pose>& poses, double dt_s) { return stepper_->step(poses.data(), dt_s); }
+    StepResult step(const std::vector<Pose>& poses, double dt_s) {
+        return stepper_->step(poses.data(), dt_s);
+    }
     [[nodiscard]] const ToolResult& tool(std::size_t index) const { return stepper_->tool(index); }
     void reset() { stepper_->reset(); }
 

@@ -58,8 +58,8 @@ constexpr Case kCases[] = {
     {"sphere_coulomb_double", ToolShape::sphere, ToolContact::coulomb, Precision::float64},
     {"plate_sticking_coupled", ToolShape::plate, ToolContact::sticking, Precision::float32,
      Preconditioner::factor, 800},
-    {"capsule_block_jacobi", ToolShape::capsule, ToolContact::frictionless, Precision::float32,
-     Preconditioner::block_jacobi},
+    {"capsule_sparse_inverse", ToolShape::capsule, ToolContact::frictionless, Precision::float32,
+     Preconditioner::sparse_inverse},
     {"plate_laplacian", ToolShape::plate, ToolContact::coulomb, Precision::float32,
      Preconditioner::laplacian},
 };

@@ -13,14 +13,15 @@ namespace knead {
 /// Numbers of the element pass and of the conjugate gradients.
 enum class Precision : std::uint8_t { float32 = 0, float64 = 1 };
 
-/// What the conjugate gradients of a step are preconditioned with.
+/// What the conjugate gradients of a step are preconditioned with. Where dt is so short that mass outweighs
+/// stiffness, the runtime takes the sparse inverse in any case.
 enum class Preconditioner : std::uint8_t {
-    factor = 0,       ///< factor of the rest-state matrix, 3x3 blocks
-    laplacian = 1,    ///< factor of the scalar Laplacian weighted by 2 mu + lambda: a ninth of the memory
-    block_jacobi = 2  ///< inverted 3x3 diagonal blocks
+    factor = 0,         ///< factor of the rest-state matrix, 3x3 blocks
+    laplacian = 1,      ///< factor of the scalar Laplacian weighted by 2 mu + lambda: a ninth of the memory
+    sparse_inverse = 2  ///< G^T G, G as sparse as the matrix: reaches to the neighbours
 };
 
-/// How the numbers of a factor are kept. Without a factor (block_jacobi) it says nothing.
+/// How the numbers of a factor are kept. Without a factor (sparse_inverse) it says nothing.
 enum class FactorStorage : std::uint8_t {
     fixed16 = 0,  ///< whole numbers of 16 bits, one float32 as the unit of each column
     float32 = 1,
@@ -104,7 +105,7 @@ inline constexpr double kLaplacianMaxContrast = 1e3;
         chosen.storage_reason = NumericsReason::nearly_incompressible;
     }
     if (chosen.tetrahedra > kFactorMaxTetrahedra) {
-        chosen.preconditioner = Preconditioner::block_jacobi;
+        chosen.preconditioner = Preconditioner::sparse_inverse;
         if (chosen.contrast > kLaplacianMaxContrast) {
             chosen.preconditioner_reason = NumericsReason::high_contrast;
         } else if (!(chosen.max_poissons_ratio < kLaplacianMaxPoissonsRatio)) {
@@ -117,7 +118,7 @@ inline constexpr double kLaplacianMaxContrast = 1e3;
     return chosen;
 }
 
-// Names, as reports spell them: "float32", "block_jacobi", "high_contrast".
+// Names, as reports spell them: "float32", "sparse_inverse", "high_contrast".
 [[nodiscard]] const char* to_string(Precision precision) noexcept;
 [[nodiscard]] const char* to_string(Preconditioner preconditioner) noexcept;
 [[nodiscard]] const char* to_string(FactorStorage storage) noexcept;

@@ -16,11 +16,12 @@ enum class Arithmetic : std::uint8_t {
 
 /// Choices of the application that do not belong to the asset.
 struct SimulationConfig {
-    /// Which of the asset's tools the poses of step() move, by index, each once; at least one. The asset's other
-    /// tools are not in this simulation.
+    /// Which of the asset's tools the poses of step() move, by index, each once; at least one. The asset's
+    /// other tools are not in this simulation.
     std::vector<std::size_t> tools{0};
     /// The step that the application will ask for most, seconds: what the preconditioner is made for when
-    /// loading. Other steps are as exact; they take more iterations until it has been made anew, step by step.
+    /// loading. Other steps are as exact; they take more iterations until it has been made anew, step by
+    /// step.
     double expected_dt_s = 1e-3;
     Arithmetic arithmetic = Arithmetic::automatic;
     double force_tolerance = 3e-4;    ///< relative bound of the force error of one step, (0, 0.1]

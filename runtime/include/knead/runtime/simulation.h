@@ -14,7 +14,8 @@
 
 namespace knead {
 
-/// One soft object with its tools: implicit Euler, corotational linear tetrahedra (paper section 3.1, [MG04]).
+/// One soft object with its tools: implicit Euler, corotational linear tetrahedra (paper section 3.1,
+/// [MG04]).
 ///
 /// Threads: one thread at a time; different objects are independent. step() and reset() never allocate,
 /// lock, throw or do I/O. Same asset, configuration, inputs and machine type: the same bits.
@@ -40,15 +41,15 @@ class KNEAD_RUNTIME_API Simulation {
     /// What the last step yielded for one tool.
     [[nodiscard]] const ToolResult& tool(std::size_t index) const noexcept;
 
-    /// Back to the rest state, at rest, tools at their rest poses. Takes as long as loading if steps of another
-    /// dt than expected_dt_s came before.
+    /// Back to the rest state, at rest, tools at their rest poses. Takes as long as loading if steps of
+    /// another dt than expected_dt_s came before.
     void reset() noexcept;
 
     [[nodiscard]] std::size_t tool_count() const noexcept;
     [[nodiscard]] std::size_t node_count() const noexcept;
     [[nodiscard]] std::size_t tetrahedron_count() const noexcept;
-    /// Current positions, metres: node_count() x 3, asset node order, valid until the next call. Computed when
-    /// asked for, not by step().
+    /// Current positions, metres: node_count() x 3, asset node order, valid until the next call. Computed
+    /// when asked for, not by step().
     [[nodiscard]] const double* positions_m() const noexcept;
     /// @param out [node_count()][3], asset node order
     void velocities_m_per_s(double* out) const noexcept;

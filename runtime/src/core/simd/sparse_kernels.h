@@ -6,11 +6,11 @@
 
 namespace knead::core {
 
-/// A sparse matrix of 3 x 3 blocks as the kernels read it: in groups of rows of about the same length, which are
-/// computed together, block after block; shorter rows are filled up with zeros.
+/// A sparse matrix of 3 x 3 blocks as the kernels read it: in groups of rows of about the same length, which
+/// are computed together, block after block; shorter rows are filled up with zeros.
 ///
-/// A block is stored by columns of four numbers, the fourth zero; column c of the blocks of a group stands side
-/// by side. Pointers are aligned to 64 bytes.
+/// A block is stored by columns of four numbers, the fourth zero; column c of the blocks of a group stands
+/// side by side. Pointers are aligned to 64 bytes.
 template <class S>
 struct BlockGroups {
     std::size_t groups = 0;

@@ -74,8 +74,8 @@ inline const Vector<S, 4>& node(const S* from, std::int32_t index) {
     return *reinterpret_cast<const Vector<S, 4>*>(from + index);
 }
 
-/// The four numbers at from[nodes[0]], from[nodes[Stride]], ... side by side. Said with intrinsics where there are
-/// some, because they load and insert in one operation.
+/// The four numbers at from[nodes[0]], from[nodes[Stride]], ... side by side. Said with intrinsics where
+/// there are some, because they load and insert in one operation.
 template <class S, int W, int Stride = 4>
 inline Vector<S, W> load_groups(const S* from, const std::int32_t* nodes) {
     static_assert(W == 4 || W == 8 || W == 16);
@@ -93,7 +93,8 @@ inline Vector<S, W> load_groups(const S* from, const std::int32_t* nodes) {
 #endif
 #ifdef __AVX2__
     } else if constexpr (W == 8 && sizeof(S) == 4) {
-        return _mm256_insertf128_ps(_mm256_castps128_ps256(node(from, nodes[0])), node(from, nodes[Stride]), 1);
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(node(from, nodes[0])), node(from, nodes[Stride]),
+                                    1);
 #endif
     } else {
         static_assert(W == 4, "wider registers need a way to fill them");
@@ -107,7 +108,8 @@ inline void store_groups(Vector<S, W> v, const std::int32_t* nodes, S* to) {
         ((*reinterpret_cast<Vector<S, 4>*>(to + nodes[Group]) =
               group<4 * Group>(v, std::make_integer_sequence<int, 4>{})),
          ...);
-    }(std::make_integer_sequence<int, W / 4>{});
+    }
+    (std::make_integer_sequence<int, W / 4>{});
 }
 
 /// Whether a comparison holds in all lanes.
