@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/model.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace knead::core {
 namespace {
 
@@ -80,6 +83,11 @@ Model build_model(const Asset& asset, const std::vector<std::size_t>& tools) {
     add_elements(asset, model);
     for (std::uint32_t i = 0; i < model.free_count; ++i)
         model.free_mass_kg += model.mass_kg[i];
+    Real volume = 0;
+    for (const Element& element : model.elements)
+        volume += 1 / (6 * element.rest_inverse.determinant());
+    const Real mean_volume = volume / static_cast<Real>(std::max<std::size_t>(1, model.elements.size()));
+    model.mean_edge_m = std::cbrt(6 * std::sqrt(Real(2)) * mean_volume);
     Vec low = model.rest_m.front(), high = low;
     for (const Vec& x : model.rest_m) {
         low = low.cwiseMin(x);

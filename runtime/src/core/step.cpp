@@ -19,6 +19,9 @@ constexpr double kUnitTolerance = 1e-3;
 /// one where soft matter between stiff would drift unseen by the force.
 constexpr double kVelocityTolerance_m_per_s = 3e-4;
 constexpr double kHardVelocityTolerance_m_per_s = 1e-4;
+/// Root mean square of the last correction, in mean edges, up to which the next step is predicted with it. Beyond
+/// that motion is abrupt, and a wrong prediction would be a bad point to linearise at.
+constexpr Real kSmallCorrection = 5e-4;
 /// Friction may miss Coulomb's law by this many times the relative force tolerance: it is only a part of the
 /// force, and each of its updates costs a solve.
 constexpr double kConePerForceTolerance = 10;
@@ -437,7 +440,10 @@ void TypedStepper<S>::go_beyond(Real dt) noexcept {
     const Real ratio = (dt / beyond_dt_s_) * (dt / beyond_dt_s_);
     const Real expected = ratio * static_cast<Real>(fields_.dot(free, beyond_.data(), beyond_.data()));
     const Real agreed = static_cast<Real>(fields_.dot(free, beyond_.data(), scratch_.data()));
-    smoothness_ = expected > 0 ? std::clamp<Real>(agreed / expected, 0, 1) : 0;
+    const Real squared = static_cast<Real>(fields_.dot(free, scratch_.data(), scratch_.data()));
+    const Real small = kSmallCorrection * model_.mean_edge_m;
+    const bool abrupt = !(squared <= small * small * model_.free_count);
+    smoothness_ = expected > 0 && !abrupt ? std::clamp<Real>(agreed / expected, 0, 1) : 0;
     std::swap(beyond_, scratch_);
     beyond_dt_s_ = dt;
 }
