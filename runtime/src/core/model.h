@@ -35,7 +35,7 @@ struct Model {
     std::vector<Range> bonded;       ///< [tools] nodes that the tool carries; empty unless it is bonded
     std::vector<std::uint32_t> from_asset;  ///< [nodes] number here of each node of the asset
     Real free_mass_kg = 0;                  ///< of the free nodes together
-    Real mean_edge_m = 0;                  ///< of a regular tetrahedron of the mean volume
+    Real mean_edge_m = 0;                   ///< of a regular tetrahedron of the mean volume
     Real size_m = 0;                        ///< diagonal of the rest state's bounding box
     Vec gravity_m_per_s2 = Vec::Zero();
     Real damping_per_s = 0;  ///< mass-proportional

@@ -19,8 +19,8 @@ constexpr double kUnitTolerance = 1e-3;
 /// one where soft matter between stiff would drift unseen by the force.
 constexpr double kVelocityTolerance_m_per_s = 3e-4;
 constexpr double kHardVelocityTolerance_m_per_s = 1e-4;
-/// Root mean square of the last correction, in mean edges, up to which the next step is predicted with it. Beyond
-/// that motion is abrupt, and a wrong prediction would be a bad point to linearise at.
+/// Root mean square of the last correction, in mean edges, up to which the next step is predicted with it.
+/// Beyond that motion is abrupt, and a wrong prediction would be a bad point to linearise at.
 constexpr Real kSmallCorrection = 5e-4;
 /// Friction may miss Coulomb's law by this many times the relative force tolerance: it is only a part of the
 /// force, and each of its updates costs a solve.
