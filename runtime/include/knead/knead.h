@@ -110,7 +110,8 @@ KNEAD_RUNTIME_API size_t knead_simulation_node_count(const knead_simulation* sim
 KNEAD_RUNTIME_API size_t knead_simulation_tetrahedron_count(const knead_simulation* simulation)
     KNEAD_NOEXCEPT;
 
-/* node_count x 3 current positions, asset node order; valid until the next step. NULL for NULL. */
+/* node_count x 3 current positions, asset node order, computed by this call and valid until the next one of
+ * any kind on this handle. NULL for NULL. */
 KNEAD_RUNTIME_API const double* knead_simulation_positions_m(const knead_simulation* simulation)
     KNEAD_NOEXCEPT;
 

@@ -8,7 +8,7 @@
 
 namespace knead::core {
 
-/// The number type of the whole core; chosen here and nowhere else.
+/// The numbers of everything but fields and kernels (node_field.h), which are float or double.
 using Real = double;
 
 using Vec = Eigen::Matrix<Real, 3, 1>;
