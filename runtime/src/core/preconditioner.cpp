@@ -18,7 +18,8 @@ constexpr Real kWorkPerSecond = 1e9;
 /// Mean rotation from which on it pays to turn the sparse inverse: mass, which outweighs stiffness there,
 /// does not turn.
 constexpr Real kTurnSparse_rad = 0.15;
-/// Shares of the nodes whose rotations are taken anew, one share in each step.
+/// Time in which the rotations of all nodes are taken anew, a share in each step; and the most shares.
+constexpr Real kRotationsIn_s = 32e-3;
 constexpr std::uint32_t kRotationShares = 32;
 /// Where dt^2 times stiffness over mass, node for node, is below this on average, the inverse hardly reaches
 /// beyond the neighbours: one iteration with the sparse inverse leaves less than a tenth of the error, for a
@@ -32,7 +33,7 @@ constexpr std::size_t kInsertions = 16;
 /// Held directions that have turned by less (squared) are the same as far as the tool's stiffness goes.
 constexpr Real kSameHold = 1e-3;
 /// Beyond this contrast stiff matter must be followed at once: a lag of its rotation weighs too much.
-constexpr double kLaggingContrast = 1e3;
+constexpr double kLaggingContrast = 1e2;
 
 bool about_same(Real a, Real b) {
     return a <= kSameDt * b && b <= kSameDt * a;
@@ -209,7 +210,10 @@ void Preconditioner<S>::reset() noexcept {
 
 template <class S>
 void Preconditioner<S>::begin_step(const System<S>& system) noexcept {
-    if (uses_sparse_ || !laplacian()) rotations_.update(system.elements, rotation_shares_);
+    if (uses_sparse_ || !laplacian()) {
+        const auto shares = static_cast<std::uint32_t>(kRotationsIn_s / system.dt_s);
+        rotations_.update(system.elements, std::clamp(shares, 1u, rotation_shares_));
+    }
     turns_ = !uses_sparse_ || rotations_.mean_angle_rad() > kTurnSparse_rad;
     follow(system.dt_s);
 }

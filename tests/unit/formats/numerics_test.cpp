@@ -34,20 +34,21 @@ TEST(Choice_of_numerics, Changes_exactly_at_its_limits) {
     using S = FactorStorage;
     const Case cases[] = {
         {1296, 1, 0.3, P::float32, C::factor, S::fixed16},
-        {1296, 100, 0.45, P::float32, C::factor, S::fixed16},
-        {1296, 101, 0.45, P::float32, C::factor, S::float32},
-        {1296, 100, 0.451, P::float32, C::factor, S::float32},
-        {1296, 1e4, 0.3, P::float32, C::factor, S::float32},
-        {1296, 1.001e4, 0.3, P::float64, C::factor, S::float32},
+        {1296, 100, 0.495, P::float32, C::factor, S::fixed16},
+        {1296, 100, 0.496, P::float32, C::factor, S::float32},
+        {1296, 1e4, 0.3, P::float32, C::factor, S::fixed16},
+        {1296, 1.001e4, 0.3, P::float64, C::factor, S::fixed16},
+        {1296, 1e6, 0.3, P::float64, C::factor, S::fixed16},
+        {1296, 1.001e6, 0.3, P::float64, C::factor, S::float32},
         {1296, 1e7, 0.3, P::float64, C::factor, S::float32},
         {1296, 1.001e7, 0.49, P::float64, C::factor, S::float64},
         {16000, 10, 0.3, P::float32, C::factor, S::fixed16},
         {16001, 10, 0.3, P::float32, C::laplacian, S::fixed16},
         {16001, 10, 0.449, P::float32, C::laplacian, S::fixed16},
         {16001, 10, 0.45, P::float32, C::sparse_inverse, S::fixed16},
-        {16001, 1e3, 0.3, P::float32, C::laplacian, S::float32},
-        {16001, 1.001e3, 0.3, P::float32, C::sparse_inverse, S::float32},
-        {48000, 1e6, 0.49, P::float64, C::sparse_inverse, S::float32},
+        {16001, 1e3, 0.3, P::float32, C::laplacian, S::fixed16},
+        {16001, 1.001e3, 0.3, P::float32, C::sparse_inverse, S::fixed16},
+        {48000, 1e6, 0.49, P::float64, C::sparse_inverse, S::fixed16},
     };
     for (const Case& c : cases) {
         const Numerics chosen = choose_numerics(asset_of(c.tetrahedra, c.contrast, c.poissons_ratio));
@@ -80,7 +81,7 @@ TEST(Choice_of_numerics, Takes_single_precision_where_the_path_of_the_force_is_s
         EXPECT_EQ(chosen.press_contrast, 1);
         EXPECT_EQ(chosen.arithmetic, Precision::float32);
         EXPECT_EQ(chosen.arithmetic_reason, NumericsReason::stiff_path);
-        EXPECT_EQ(chosen.factor_storage, FactorStorage::float32);
+        EXPECT_EQ(chosen.factor_storage, contrast > 1e6 ? FactorStorage::float32 : FactorStorage::fixed16);
         asset.free_node_count = static_cast<std::uint32_t>(asset.nodes_m.size());  // nothing holds it
         EXPECT_EQ(choose_numerics(asset).arithmetic, Precision::float64);
     }
@@ -102,11 +103,11 @@ TEST(Choice_of_numerics, Says_why_in_one_sentence) {
     EXPECT_EQ(to_text(choose_numerics(asset_of(20000, 10, 0.46))),
               "contrast 10, Poisson's ratio up to 0.46, 20000 tetrahedra: solved in float32 (low contrast), "
               "preconditioned by a sparse approximate inverse (nearly incompressible)");
-    Asset stiff_path = with_a_stiff_path(1e6);
+    Asset stiff_path = with_a_stiff_path(1e7);
     stiff_path.tools.resize(1);
     EXPECT_EQ(
         to_text(choose_numerics(stiff_path)),
-        "contrast 1e+06 (1 against the path from tool to support), Poisson's ratio up to 0.3, 2 tetrahedra: "
+        "contrast 1e+07 (1 against the path from tool to support), Poisson's ratio up to 0.3, 2 tetrahedra: "
         "solved in float32 (stiff path), preconditioned by the factor of the rest state (few tetrahedra) "
         "kept "
         "in float32 (high contrast)");
