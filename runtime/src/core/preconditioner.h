@@ -38,10 +38,12 @@ class Preconditioner {
     /// @param residual projected  @param out expanded
     void apply(const System<S>& system, const Unknowns<S>& residual, Unknowns<S>& out) const noexcept;
 
+    /// Whether force_owed() says anything: of a bonded tool that does not move, at about the dt that this was
+    /// made for.
+    [[nodiscard]] bool knows_force_owed(const System<S>& system, std::size_t tool) const noexcept;
     /// By how much what is left of the residual would change the force of a bonded tool that does not move,
     /// to first order in how far this is from the inverse: the response to the tool's motion is that of its
     /// force to loads, by symmetry. Zero for other tools.
-    [[nodiscard]] bool knows_force_owed(const System<S>& system, std::size_t tool) const noexcept;
     [[nodiscard]] Vec force_owed(const System<S>& system, std::size_t tool,
                                  const NodeField<S>& residual) const noexcept;
 

@@ -107,7 +107,7 @@ class TypedStepper final : public Stepper {
 
     void predict(const Frame* hands, Real dt) noexcept;
     void couple(Tool& tool, ToolUnknown& unknown, const Frame& hand, Real dt) const noexcept;
-    void predict_bonded(std::size_t k, Real dt) noexcept;
+    void predict_bonded(std::size_t k) noexcept;
     void linearise(const System<S>& system) noexcept;
     std::uint32_t solve_with_contact(const System<S>& system) noexcept;
     [[nodiscard]] bool settled(const SolverLimits& limits, std::uint32_t& status) noexcept;
@@ -262,7 +262,7 @@ void TypedStepper<S>::predict(const Frame* hands, Real dt) noexcept {
         tools_[k].frame = hands[k];
         if (coupled()) couple(tools_[k], unknowns_[k], hands[k], dt);
         frames_[k] = tools_[k].frame;
-        predict_bonded(k, dt);
+        predict_bonded(k);
     }
     contact_.begin_step(frames_, NodeReader(model_.rest_m, predicted_), dt);
 }
@@ -282,7 +282,7 @@ void TypedStepper<S>::couple(Tool& tool, ToolUnknown& unknown, const Frame& hand
 
 /// Bonded nodes go where their tool takes them: a better point to linearise at than along their velocity.
 template <class S>
-void TypedStepper<S>::predict_bonded(std::size_t k, Real dt) noexcept {
+void TypedStepper<S>::predict_bonded(std::size_t k) noexcept {
     Tool& tool = tools_[k];
     const std::uint32_t begin = model_.bonded[k].begin;
     for (std::size_t i = 0; i < tool.anchors.size(); ++i) {
@@ -290,7 +290,6 @@ void TypedStepper<S>::predict_bonded(std::size_t k, Real dt) noexcept {
         tool.next_m[i] = tool.frame.to_scene(tool.anchors[i]) - model_.rest_m[node];
         predicted_.set(node, tool.next_m[i]);
     }
-    (void)dt;
 }
 
 /// The right-hand side dt^2 (elastic force + gravity - damping) at the prediction, in kg m. Bonded nodes also
