@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# Install component `runtime`: the library, its headers, and how others find it (CMake package, pkg-config).
+# Install component `runtime`: its libraries, their headers, and how others find it (CMake package, pkg-config).
 set(KNEAD_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/knead)
 
-install(TARGETS knead_runtime EXPORT kneadRuntimeTargets
+install(TARGETS knead_runtime knead_haptics EXPORT kneadRuntimeTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT runtime)
 install(DIRECTORY include/knead DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT runtime
         FILES_MATCHING PATTERN "*.h")
@@ -36,6 +36,8 @@ endif()
 # The prefix is taken from where the .pc file lies, so that an installed tree can be moved.
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
            BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig OUTPUT_VARIABLE KNEAD_PC_PREFIX)
-configure_file(cmake/knead-runtime.pc.in ${CMAKE_CURRENT_BINARY_DIR}/knead-runtime.pc @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/knead-runtime.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
-        COMPONENT runtime)
+foreach(library IN ITEMS runtime haptics)
+  configure_file(cmake/knead-${library}.pc.in ${CMAKE_CURRENT_BINARY_DIR}/knead-${library}.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/knead-${library}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+          COMPONENT runtime)
+endforeach()

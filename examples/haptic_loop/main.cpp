@@ -2,8 +2,8 @@
 // The smallest haptic application: an asset, a device, a loop. Needs the installed runtime and nothing else.
 #include <cstdio>
 
-#include "knead/runtime/haptic_loop.h"
-#include "knead/runtime/scripted_device.h"
+#include "knead/haptics/haptic_loop.h"
+#include "knead/haptics/scripted_device.h"
 #include "knead/runtime/simulation.h"
 
 int main(int argc, char** argv) {
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
             if (++tick_count % 100 != 0) return;
             const double depth_mm = 1e3 * (script.start.position_m[2] - tick.step.tool_position_m[2]);
             std::printf("%8.3f  %8.3f  %8.4f%s\n", tick.device.time_s, depth_mm, tick.step.force_n[2],
-                        (tick.status & knead::kLoopSaturated) != 0 ? "  (the device's limit)" : "");
+                        (tick.status & knead::kHapticSaturated) != 0 ? "  (the device's limit)" : "");
         });
     if (!run) {
         std::fprintf(stderr, "haptic_loop: error: %s\n", run.error().text().c_str());

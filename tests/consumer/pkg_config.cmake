@@ -15,6 +15,8 @@ separate_arguments(flags UNIX_COMMAND "${FLAGS}")
 run(${CC} ${flags} -std=c99 -Wall -Wextra -pedantic -Werror ${SOURCE}/tests/unit/runtime/c_abi_test.c
     -o ${WORK}/c_program ${options} -lm)
 run(${WORK}/c_program ${ASSET})
+run(${pkg_config} --cflags --libs knead-haptics)
+separate_arguments(options UNIX_COMMAND "${run_output}")
 run(${CXX} ${flags} -std=c++17 -Wall -Wextra -Werror ${SOURCE}/examples/haptic_loop/main.cpp
     -o ${WORK}/cpp_program ${options})
 run(${WORK}/cpp_program ${ASSET})

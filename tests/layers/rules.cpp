@@ -33,6 +33,9 @@ bool names_formats(const Include& include) {
 bool names_runtime(const Include& include) {
     return starts(include.name, "knead/runtime/") || include.name == "knead/knead.h";
 }
+bool names_haptics(const Include& include) {
+    return starts(include.name, "knead/haptics/") || include.name == "knead/knead_haptics.h";
+}
 bool names_hdf5(const Include& include) {
     return starts(include.name, "hdf5") || starts(include.name, "H5");
 }
@@ -95,11 +98,23 @@ Complaint formats_rule(const SourceFile& file, const Include& include, const std
     return "formats may include formats, the standard library and (in src) HDF5 only";
 }
 
+bool is_haptics(const SourceFile& file) {
+    return in(file, "runtime/src/haptics/") || in(file, "runtime/include/knead/haptics/") ||
+           file.path == "runtime/include/knead/knead_haptics.h";
+}
+
 Complaint runtime_rule(const SourceFile& file, const Include& include, const std::set<std::string>& paths) {
     if (!in(file, "runtime/")) return std::nullopt;
     const bool is_public = in(file, "runtime/include/");
     if (names_writers(include)) return "the runtime must not include the writers of formats";
     if (names_formats(include) || names_runtime(include) || names_system(include)) return std::nullopt;
+    if (names_haptics(include)) {
+        return is_haptics(file) ? Complaint()
+                                : "the simulation must not include what is between it and the hand";
+    }
+    if (is_haptics(file) && !include.angle &&
+        (starts(include.name, "core/") || starts(include.name, "load/")))
+        return "the haptics see of the runtime what every application sees";
     if (names_eigen(include))
         return is_public ? Complaint("public headers must not show Eigen") : Complaint();
     if (!is_public && names_own_source(file, include, paths, "runtime/src/")) return std::nullopt;
@@ -120,9 +135,9 @@ Complaint core_rule(const SourceFile& file, const Include& include) {
 }
 
 Complaint tools_rule(const SourceFile& file, const Include& include) {
-    if (!in(file, "tools/") || in(file, "tools/evaluate/")) return std::nullopt;
-    if (names_runtime(include) || starts(include.name, "runtime/"))
-        return "tools must not include the runtime (except tools/evaluate)";
+    if (!in(file, "tools/") || in(file, "tools/evaluate/") || in(file, "tools/touch/")) return std::nullopt;
+    if (names_runtime(include) || names_haptics(include) || starts(include.name, "runtime/"))
+        return "tools must not include the runtime (except tools/evaluate and tools/touch)";
     return std::nullopt;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "knead/runtime/haptic_loop.h"
+#include "knead/haptics/haptic_loop.h"
 
 #include <algorithm>
 #include <chrono>
@@ -16,18 +16,8 @@ constexpr double kSlowest_hz = 50;
 constexpr double kFastest_hz = 4000;
 constexpr double kUnitTolerance = 1e-3;
 
-Pose to_scene(const WorkspaceMap& map, const Pose& device) noexcept {
-    Pose scene;
-    const Vec3 turned = rotate(map.rotation_wxyz, device.position_m);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        scene.position_m[axis] = map.offset_m[axis] + map.scale * turned[axis];
-    }
-    scene.orientation_wxyz = multiply(map.rotation_wxyz, device.orientation_wxyz);
-    return scene;
-}
-
 Vec3 to_device(const HapticConfig& config, const Vec3& scene_force_n) noexcept {
-    Vec3 force = rotate(inverse(config.workspace.rotation_wxyz), scene_force_n);
+    Vec3 force = force_to_device(config.workspace, scene_force_n);
     for (double& component : force)
         component *= config.force_scale;
     return force;
@@ -39,13 +29,13 @@ void limit_norm(double max_force_n, Vec3& force, std::uint32_t& status) noexcept
     if (!(norm > max_force_n) || std::isinf(norm)) return;
     for (double& component : force)
         component *= max_force_n / norm;
-    status |= kLoopSaturated;
+    status |= kHapticSaturated;
 }
 
 void zero_if_not_finite(Vec3& force, std::uint32_t& status) noexcept {
     if (std::isfinite(force[0]) && std::isfinite(force[1]) && std::isfinite(force[2])) return;
     force = {};
-    status |= kLoopNotFinite;
+    status |= kHapticNotFinite;
 }
 
 bool unit(const QuaternionWxyz& q) {
@@ -109,7 +99,7 @@ Result<RunStatistics> HapticLoop::run(double seconds, double rate_hz,
         const auto end = Clock::now();
         ++statistics.ticks;
         statistics.step_status |= tick.step.status;
-        statistics.loop_status |= tick.status;
+        statistics.haptic_status |= tick.status;
         statistics.longest_tick_s =
             std::max(statistics.longest_tick_s, std::chrono::duration<double>(end - start).count());
         start += period;

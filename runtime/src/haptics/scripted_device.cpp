@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "knead/runtime/scripted_device.h"
+#include "knead/haptics/scripted_device.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "knead/runtime/device.h"
-#include "knead/runtime/export.h"
+#include "knead/haptics/device.h"
+#include "knead/haptics/export.h"
 
 namespace knead {
 
@@ -24,13 +24,13 @@ struct PressScript {
 
 /// The samples of a press, one per period; times start at zero. Empty if a duration is negative or not
 /// finite, the rate is not above zero, or the whole has more than ten million samples.
-[[nodiscard]] KNEAD_RUNTIME_API std::vector<DeviceState> press_samples(const PressScript& script);
+[[nodiscard]] KNEAD_HAPTICS_API std::vector<DeviceState> press_samples(const PressScript& script);
 
 /// A device that needs no hardware: replays samples, one per read(), and records what is written.
 ///
 /// The same samples give the same poses, bit for bit, whatever the clock says. read() and write() do not
 /// allocate: room for one force per sample is set aside in the constructor, later ones are not recorded.
-class KNEAD_RUNTIME_API ScriptedDevice final : public Device {
+class KNEAD_HAPTICS_API ScriptedDevice final : public Device {
   public:
     /// @param samples recorded from a device, or press_samples(); an empty script stays at the origin
     explicit ScriptedDevice(std::vector<DeviceState> samples);

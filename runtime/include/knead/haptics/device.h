@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "knead/runtime/export.h"
+#include "knead/haptics/export.h"
 #include "knead/runtime/pose.h"
 
 namespace knead {
@@ -19,7 +19,7 @@ struct DeviceState {
 /// A haptic device: gives a pose, takes a force (impedance causality). Adapters of real devices implement it.
 ///
 /// Both functions are called by the haptic loop once a period: they must not block, allocate or throw.
-class KNEAD_RUNTIME_API Device {
+class KNEAD_HAPTICS_API Device {
   public:
     virtual ~Device() = default;
     [[nodiscard]] virtual DeviceState read() noexcept = 0;

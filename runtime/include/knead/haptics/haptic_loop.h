@@ -6,20 +6,14 @@
 #include <functional>
 
 #include "knead/formats/result.h"
-#include "knead/runtime/device.h"
-#include "knead/runtime/export.h"
+#include "knead/haptics/device.h"
+#include "knead/haptics/export.h"
+#include "knead/haptics/status.h"
+#include "knead/haptics/workspace_map.h"
 #include "knead/runtime/pose.h"
 #include "knead/runtime/simulation.h"
 
 namespace knead {
-
-/// From the device's frame to the scene's: position = offset + scale * rotation * device position. Forces
-/// come back through the inverse rotation.
-struct WorkspaceMap {
-    double scale = 1;                                 ///< scene metres per device metre, > 0
-    std::array<double, 4> rotation_wxyz{1, 0, 0, 0};  ///< unit quaternion
-    Vec3 offset_m{};                                  ///< scene position of the device's origin
-};
 
 struct HapticConfig {
     WorkspaceMap workspace;
@@ -28,20 +22,13 @@ struct HapticConfig {
         3.3;  ///< largest norm of the force on the hand, > 0; the default suits a small desktop device
 };
 
-/// What happened in a tick, beside the step's own status; bits.
-enum LoopStatus : std::uint32_t {
-    kLoopOk = 0,
-    kLoopSaturated = 1u << 0,  ///< the force was longer than the limit: shortened, its direction kept
-    kLoopNotFinite = 1u << 1,  ///< the force was not finite: zero was written
-};
-
 /// One period of the loop.
 struct HapticTick {
-    DeviceState device;              ///< as read
-    Pose hand;                       ///< the same in the scene
-    StepResult step;                 ///< forces in the scene
-    Vec3 device_force_n{};           ///< as written
-    std::uint32_t status = kLoopOk;  ///< LoopStatus bits
+    DeviceState device;                ///< as read
+    Pose hand;                         ///< the same in the scene
+    StepResult step;                   ///< forces in the scene
+    Vec3 device_force_n{};             ///< as written
+    std::uint32_t status = kHapticOk;  ///< HapticStatus bits
 };
 
 /// What a run was like.
@@ -49,14 +36,14 @@ struct RunStatistics {
     std::uint64_t ticks = 0;
     std::uint64_t misses = 0;  ///< ticks that ended after their period
     double longest_tick_s = 0;
-    std::uint32_t step_status = 0;  ///< StepStatus bits of all ticks together
-    std::uint32_t loop_status = 0;  ///< LoopStatus bits of all ticks together
+    std::uint32_t step_status = 0;    ///< StepStatus bits of all ticks together
+    std::uint32_t haptic_status = 0;  ///< HapticStatus bits of all ticks together
 };
 
 /// The haptic loop, synchronous: read the device, step the object, write the force.
 ///
 /// Keeps references: device and simulation must outlive it. One thread at a time.
-class KNEAD_RUNTIME_API HapticLoop {
+class KNEAD_HAPTICS_API HapticLoop {
   public:
     /// @return the loop, or invalid_argument for a config out of the documented ranges
     static Result<HapticLoop> create(Device& device, Simulation& simulation, const HapticConfig& config = {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "knead/runtime/haptic_loop.h"
+#include "knead/haptics/haptic_loop.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-#include "knead/runtime/scripted_device.h"
+#include "knead/haptics/scripted_device.h"
 #include "unit/runtime/block_asset.h"
 
 namespace knead::test {
@@ -150,11 +150,11 @@ TEST(HapticLoop, shortens_a_force_above_the_limit_and_keeps_its_direction) {
         const double norm = std::hypot(f[0], f[1], f[2]);
         const double wanted = std::hypot(scene[0], scene[1], scene[2]);
         ASSERT_LE(norm, 2 * (1 + 1e-12));
-        ASSERT_EQ((tick.status & kLoopSaturated) != 0, wanted > 2);
+        ASSERT_EQ((tick.status & kHapticSaturated) != 0, wanted > 2);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             ASSERT_NEAR(f[axis] * wanted, scene[axis] * norm, 1e-9 * wanted * wanted + 1e-12);
         }
-        saturated = saturated || (tick.status & kLoopSaturated) != 0;
+        saturated = saturated || (tick.status & kHapticSaturated) != 0;
     }
     EXPECT_TRUE(saturated);
 }
@@ -185,7 +185,7 @@ TEST(HapticLoop, whose_scaled_force_overflows_writes_zero_and_says_so) {
         const HapticTick tick = loop.tick(1e-3);
         const Vec3& f = tick.device_force_n;
         ASSERT_LE(std::hypot(f[0], f[1], f[2]), config.max_force_n * (1 + 1e-12));
-        seen = seen || (tick.status & kLoopNotFinite) != 0;
+        seen = seen || (tick.status & kHapticNotFinite) != 0;
     }
     EXPECT_TRUE(seen);
 }
