@@ -19,8 +19,8 @@
 #include <string>
 
 #include "core/simd/kernels.h"
-#include "knead/runtime/haptic_loop.h"
-#include "knead/runtime/scripted_device.h"
+#include "knead/haptics/haptic_loop.h"
+#include "knead/haptics/scripted_device.h"
 #include "knead/runtime/simulation.h"
 #include "unit/runtime/press.h"
 #include "unit/runtime/watched_calls.h"
