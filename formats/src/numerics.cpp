@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "knead/formats/numerics.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -19,11 +20,12 @@ std::string short_number(double number) {
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::general, 4).ptr};
 }
 
-const char* words(NumericsReason reason) {
-    static constexpr std::array<const char*, 6> kWords{"low contrast",          "high contrast",
-                                                       "nearly incompressible", "few tetrahedra",
-                                                       "many tetrahedra",       "stiff path"};
-    return kWords[static_cast<std::size_t>(reason)];
+/// @param most_contrast what counts as low for the choice: not the same for each of them
+std::string words(NumericsReason reason, double most_contrast) {
+    if (reason == NumericsReason::low_contrast) return "contrast up to " + short_number(most_contrast);
+    std::string text = to_string(reason);
+    std::replace(text.begin(), text.end(), '_', ' ');
+    return text;
 }
 
 }  // namespace
@@ -54,12 +56,12 @@ std::string to_text(const Numerics& numerics) {
              : std::string()) +
         ", Poisson's ratio up to " + short_number(numerics.max_poissons_ratio) + ", " +
         std::to_string(numerics.tetrahedra) + " tetrahedra: solved in " + to_string(numerics.arithmetic) +
-        " (" + words(numerics.arithmetic_reason) + "), preconditioned by " +
+        " (" + words(numerics.arithmetic_reason, kFloat32MaxPressContrast) + "), preconditioned by " +
         kBy[static_cast<std::size_t>(numerics.preconditioner)] + " (" +
-        words(numerics.preconditioner_reason) + ")";
+        words(numerics.preconditioner_reason, kLaplacianMaxContrast) + ")";
     if (numerics.preconditioner == Preconditioner::sparse_inverse) return text;
-    return text + " kept in " + to_string(numerics.factor_storage) + " (" + words(numerics.storage_reason) +
-           ")";
+    return text + " kept in " + to_string(numerics.factor_storage) + " (" +
+           words(numerics.storage_reason, kFixed16FactorMaxContrast) + ")";
 }
 
 }  // namespace knead

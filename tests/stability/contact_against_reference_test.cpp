@@ -5,6 +5,7 @@
 #include <string>
 
 #include "stability/contact_runs.h"
+#include "stability/touch.h"
 
 namespace knead::test {
 namespace {
@@ -42,31 +43,11 @@ constexpr double kNonlinearError = 2e-3;
 constexpr double kNonlinearCatchError = 1e-2;
 // Solved to 1e-8. Measured up to 3.4e-8.
 constexpr double kSolvedError = 1e-6;
-// A node that begins to slip does so in the tangent plane at its anchor, in the reference in that where its
-// velocity leads it: apart by a step's slip over the radius. Measured up to 1.5e-3, and 1.7e-4.
-constexpr double kPlaneError = 3e-3;
-constexpr double kSettledPlaneError = 5e-4;
-
-struct Touch {
-    ToolShape shape;
-    ToolContact contact;
-};
-
-std::string name_of(const Touch& touch) {
-    const char* const shape = touch.shape == ToolShape::plate    ? "plate"
-                              : touch.shape == ToolShape::sphere ? "sphere"
-                                                                 : "capsule";
-    const char* const contact = touch.contact == ToolContact::sticking       ? "sticking"
-                                : touch.contact == ToolContact::frictionless ? "frictionless"
-                                                                             : "coulomb";
-    return std::string(shape) + "_" + contact;
-}
-
-ContactScene touched_cube(const Touch& touch) {
-    Asset asset = scenario_cube(kCells);
-    asset.tools = {tool_above(asset, touch.shape, touch.contact)};
-    return scene_of(asset);
-}
+// Where friction holds a node is where it was caught: where the solve had led it in which it was found. That
+// place follows the friction found until then, which runtime and reference find on different ways. So in the
+// step of a catch, and decaying after it. Measured up to 1.0e-4, and 4.3e-6.
+constexpr double kCaughtPlaceError = 3e-4;
+constexpr double kSettledCaughtPlaceError = 2e-5;
 
 class ContactAgainstReference : public testing::TestWithParam<Touch> {};
 
@@ -80,7 +61,7 @@ SimulationConfig exact() {
 }
 
 TEST_P(ContactAgainstReference, Force_torque_and_touched_nodes_are_those_of_the_exact_steps) {
-    const ContactScene scene = touched_cube(GetParam());
+    const ContactScene scene = touched_cube(GetParam(), kCells);
     const Record run = run_runtime(scene, press_slide_turn_lift, kDtS, kSteps);
     const Record linearised = run_reference(scene, press_slide_turn_lift, kDtS, kSteps, Oracle::linearised);
     const Record converged = run_reference(scene, press_slide_turn_lift, kDtS, kSteps, Oracle::converged);
@@ -101,28 +82,19 @@ TEST_P(ContactAgainstReference, Force_torque_and_touched_nodes_are_those_of_the_
 }
 
 TEST_P(ContactAgainstReference, Solved_to_the_end_the_steps_are_the_linearised_ones) {
-    const ContactScene scene = touched_cube(GetParam());
+    const ContactScene scene = touched_cube(GetParam(), kCells);
     const Record run = run_runtime(scene, press_slide_turn_lift, kDtS, kSteps, exact());
     const Record truth = run_reference(scene, press_slide_turn_lift, kDtS, kSteps, Oracle::linearised);
     const Difference d = difference(run, truth, 0, truth.slid_at);
     EXPECT_EQ(run.status, kStepOk);
-    const bool slips = GetParam().contact == ToolContact::coulomb;
-    EXPECT_LT(d.force, slips ? kPlaneError : kSolvedError) << text(d);
-    EXPECT_LT(d.settled_force, slips ? kSettledPlaneError : kSolvedError) << text(d);
+    const bool rubs = GetParam().contact == ToolContact::coulomb;
+    EXPECT_LT(d.force, rubs ? kCaughtPlaceError : kSolvedError) << text(d);
+    EXPECT_LT(d.settled_force, rubs ? kSettledCaughtPlaceError : kSolvedError) << text(d);
     EXPECT_EQ(d.steps_apart, 0) << text(d);
     RecordProperty("exact", text(d));
 }
 
-std::vector<Touch> touches() {
-    std::vector<Touch> result;
-    for (const ToolShape shape : {ToolShape::plate, ToolShape::sphere, ToolShape::capsule})
-        for (const ToolContact contact :
-             {ToolContact::frictionless, ToolContact::sticking, ToolContact::coulomb})
-            result.push_back({shape, contact});
-    return result;
-}
-
-INSTANTIATE_TEST_SUITE_P(Tool, ContactAgainstReference, testing::ValuesIn(touches()),
+INSTANTIATE_TEST_SUITE_P(Tool, ContactAgainstReference, testing::ValuesIn(all_touches()),
                          [](const auto& touch) { return name_of(touch.param); });
 
 /// Two plates close on the cube from both sides, go up together, and open again.

@@ -6,7 +6,8 @@
 #include <chrono>
 #include <vector>
 
-#include "stability/contact_scene.h"
+#include "stability/touch.h"
+#include "support/simulation_of.h"
 
 namespace knead::test {
 namespace {
@@ -67,24 +68,17 @@ void print(const char* what, const std::vector<Sample>& samples, bool touching, 
         percentile(iterations, 0.5), percentile(iterations, 1));
 }
 
-void measure(std::uint32_t cells, double nu, ToolShape shape, ToolContact contact) {
+void measure(std::uint32_t cells, double nu, const Touch& touch) {
     Asset asset = scenario_cube(cells, nu);
-    asset.tools = {tool_above(asset, shape, contact)};
-    Result<Simulation> created = Simulation::create(asset);
-    if (!created.ok()) return;
-    Simulation simulation = std::move(created).value();
+    asset.tools = {tool_above(asset, touch.shape, touch.contact)};
+    Simulation simulation = simulation_of(asset);
     std::vector<Sample> samples(kSteps);
     for (int round = 0; round < kRounds; ++round)
         run_once(simulation, samples);
     std::uint32_t most = 0;
     for (const Sample& s : samples)
         most = std::max(most, s.touched);
-    fmt::print("n {}, nu {}, {} {}, up to {} nodes\n", cells, nu,
-               shape == ToolShape::plate ? "plate" : "sphere",
-               contact == ToolContact::sticking       ? "sticking"
-               : contact == ToolContact::frictionless ? "frictionless"
-                                                      : "coulomb",
-               most);
+    fmt::print("n {}, nu {}, {}, up to {} nodes\n", cells, nu, name_of(touch), most);
     print("apart", samples, false, false);
     print("touching", samples, true, false);
     print("change", samples, true, true);
@@ -101,5 +95,5 @@ int main() {
             for (const ToolShape shape : {ToolShape::plate, ToolShape::sphere})
                 for (const ToolContact contact :
                      {ToolContact::frictionless, ToolContact::sticking, ToolContact::coulomb})
-                    knead::test::measure(cells, nu, shape, contact);
+                    knead::test::measure(cells, nu, {shape, contact});
 }

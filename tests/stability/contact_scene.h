@@ -2,24 +2,18 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
 #include "knead/runtime/simulation.h"
-#include "material/scenario.h"
 #include "reference/contact_problem.h"
-#include "reference/plate_press.h"
 #include "stability/press_asset.h"
-#include "support/kuhn_cube.h"
+#include "stability/scenario_press.h"
 
 namespace knead::test {
-
-inline constexpr double kCubeSideM = 0.1;
-inline constexpr double kCubeDensityKgPerM3 = 1000;  // 1 kg
-inline constexpr std::uint64_t kCubeSeed = 1;
 
 inline Eigen::Vector3d vec(const std::array<double, 3>& v) {
     return {v[0], v[1], v[2]};
@@ -51,11 +45,9 @@ inline ContactScene scene_of(Asset asset) {
 }
 
 /// The paper's cube under one of the nine scenarios, standing on held nodes, without tools.
-inline Asset scenario_cube(std::uint32_t cells, double poissons_ratio = 0.3, int scenario = 1) {
-    const TetMesh mesh = kuhn_cube(cells, kCubeSideM);
-    const Material material =
-        tools::scenario_material(mesh, scenario, kCubeSeed, poissons_ratio, kCubeDensityKgPerM3);
-    Asset asset = press_asset(mesh, material, tools::plate_press(mesh, 0.1)).asset;
+inline Asset scenario_cube(std::uint32_t cells, double poissons_ratio = kCubePoissonsRatio,
+                           int scenario = 1) {
+    Asset asset = press_asset(PressedCube({scenario, cells}, poissons_ratio)).asset;
     asset.tools.clear();
     return asset;
 }

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <ostream>
 #include <random>
-#include <stdexcept>
 
 #include "stability/contact_scene.h"
+#include "support/simulation_of.h"
 
 namespace knead::test {
 namespace {
@@ -28,22 +28,20 @@ struct Iterations {
     [[nodiscard]] double mean() const { return static_cast<double>(sum) / steps; }
 };
 
-Simulation simulation_of(const Asset& asset, double expected_dt_s, double force_tolerance = 3e-4) {
+Simulation simulation_for(const Asset& asset, double expected_dt_s, double force_tolerance = 3e-4) {
     SimulationConfig config;
     config.expected_dt_s = expected_dt_s;
     config.force_tolerance = force_tolerance;
     // Tighter than float32 can be sure of.
     if (force_tolerance < 1e-5) config.arithmetic = Arithmetic::float64;
-    Result<Simulation> created = Simulation::create(asset, config);
-    if (!created.ok()) throw std::runtime_error(created.error().text());
-    return std::move(created).value();
+    return simulation_of(asset, config);
 }
 
 constexpr int kPressSteps = 100;
 
 /// Down by a tenth in a fifth of a second, with a hand's tremor (10 Hz, 0.3 mm, a third of it sideways).
 Pose pressed(const Pose& rest, double time_s) {
-    constexpr double kWayM = 0.1 * kCubeSideM;
+    constexpr double kWayM = kPressStrain * kCubeSideM;
     constexpr double kRampS = 0.2;
     Pose pose = rest;
     pose.position_m[0] += 0.1e-3 * std::sin(2 * M_PI * 8.5 * time_s);
@@ -96,9 +94,9 @@ constexpr std::uint32_t kWhileTakenIn = 64;
 TEST_P(IterationsInContact, Are_those_of_a_run_in_which_the_same_nodes_are_eliminated) {
     const auto [cells, nu, dt_s] = GetParam();
     Simulation touching =
-        simulation_of(held_in_the_middle(cells, nu, ToolContact::sticking), dt_s, kTightTolerance);
+        simulation_for(held_in_the_middle(cells, nu, ToolContact::sticking), dt_s, kTightTolerance);
     Simulation bonded =
-        simulation_of(held_in_the_middle(cells, nu, ToolContact::bonded), dt_s, kTightTolerance);
+        simulation_for(held_in_the_middle(cells, nu, ToolContact::bonded), dt_s, kTightTolerance);
     const Pose rest = touching.tool_rest_pose();
     Iterations with_contact, eliminated, first;
     for (int k = 1; k <= kPressSteps; ++k) {
@@ -140,8 +138,8 @@ TEST(IterationsUnderAnotherDt, Jitter_of_a_fifth_costs_less_than_an_iteration_a_
     for (const double nu : {0.3, 0.49}) {
         for (const double dt_s : {1e-3, 10e-3}) {
             const Asset asset = held_in_the_middle(6, nu, ToolContact::bonded);
-            Simulation steady = simulation_of(asset, dt_s);
-            Simulation jittering = simulation_of(asset, dt_s);
+            Simulation steady = simulation_for(asset, dt_s);
+            Simulation jittering = simulation_for(asset, dt_s);
             const Pose rest = steady.tool_rest_pose();
             std::mt19937_64 engine(1);
             Iterations a, b;
@@ -173,11 +171,11 @@ constexpr std::uint32_t kBack = 1;
 TEST(IterationsUnderAnotherDt, Jump_from_a_quarter_to_twenty_to_one_millisecond_costs_bounded_work_and_ends) {
     for (const double nu : {0.3, 0.49}) {
         const Asset asset = held_in_the_middle(6, nu, ToolContact::sticking);
-        Simulation jumping = simulation_of(asset, kJumps[0].dt_s);
+        Simulation jumping = simulation_for(asset, kJumps[0].dt_s);
         const Pose rest = jumping.tool_rest_pose();
         double time_s = 0;
         for (const Jump& jump : kJumps) {
-            Simulation made_for_it = simulation_of(asset, jump.dt_s);
+            Simulation made_for_it = simulation_for(asset, jump.dt_s);
             Iterations meanwhile, back, expected;
             for (int k = 1; k <= jump.steps; ++k) {
                 time_s += jump.dt_s;

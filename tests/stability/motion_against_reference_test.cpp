@@ -3,24 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
-#include <string>
-#include <vector>
 
-#include "knead/runtime/simulation.h"
-#include "material/scenario.h"
 #include "reference/implicit_euler.h"
-#include "reference/plate_press.h"
 #include "stability/press_asset.h"
-#include "support/kuhn_cube.h"
+#include "stability/scenario_press.h"
+#include "support/simulation_of.h"
 
 namespace knead {
 namespace {
-
-constexpr double kPoissonsRatio = 0.3;
-constexpr double kDensityKgPerM3 = 1000;  // 1 kg in a cube of 0.1 m
-constexpr double kStrain = 0.1;
-constexpr std::uint64_t kSeed = 1;
 
 // Pressed by 10 % in 0.2 s, then held, by a hand that trembles (10 Hz, 0.3 mm): nothing that a prediction
 // along the last velocity could follow by itself.
@@ -34,15 +24,6 @@ constexpr double kTremorHz = 10;
 // small forces are judged by themselves. From the first step on there is force: that of the tremor's start.
 constexpr double kForceTolerance = 1e-3;
 
-struct Press {
-    int scenario;
-    std::uint32_t cells;
-};
-
-void PrintTo(const Press& press, std::ostream* out) {
-    *out << "scenario " << press.scenario << ", n = " << press.cells;
-}
-
 double plate_way_m(double time_s, double way_m) {
     return way_m * std::min(1.0, time_s / kRampS) + kTremorM * std::sin(2 * M_PI * kTremorHz * time_s);
 }
@@ -51,36 +32,31 @@ double norm(const Point& v) {
     return std::hypot(v[0], v[1], v[2]);
 }
 
-class MotionAgainstReference : public testing::TestWithParam<Press> {};
+class MotionAgainstReference : public testing::TestWithParam<test::ScenarioPress> {};
 
 TEST_P(MotionAgainstReference, Force_under_a_trembling_plate_is_that_of_converged_steps_at_every_time) {
-    const TetMesh mesh = test::kuhn_cube(GetParam().cells);
-    const Material material =
-        tools::scenario_material(mesh, GetParam().scenario, kSeed, kPoissonsRatio, kDensityKgPerM3);
-    const tools::PlatePress press = tools::plate_press(mesh, kStrain);
-    Result<Simulation> created = Simulation::create(test::press_asset(mesh, material, press).asset);
-    ASSERT_TRUE(created.ok()) << created.error().text();
-    Simulation simulation = std::move(created).value();
+    const test::PressedCube cube(GetParam());
+    Simulation simulation = test::simulation_of(test::press_asset(cube).asset);
     const Pose rest = simulation.tool_rest_pose();
-    tools::ImplicitEuler reference(mesh, material);
+    tools::ImplicitEuler reference(cube.mesh, cube.material);
     tools::MotionState state = reference.rest();
-    tools::PrescribedMotion motion = press.motion;
+    tools::PrescribedMotion motion = cube.press.motion;
 
     double largest_n = 0;
     double worst = 0;
     double worst_error_n = 0;
     int worst_step = 0;
     for (int k = 1; k <= kSteps; ++k) {
-        const double way_m = plate_way_m(k * kDtS, kStrain * press.height_m);
+        const double way_m = plate_way_m(k * kDtS, cube.way_m());
         Pose pose = rest;
         pose.position_m[2] -= way_m;
         const StepResult step = simulation.step(pose, kDtS);
         ASSERT_EQ(step.status, kStepOk) << "step " << k;
-        for (std::size_t p = press.held_nodes.size(); p < motion.nodes.size(); ++p)
+        for (std::size_t p = cube.press.held_nodes.size(); p < motion.nodes.size(); ++p)
             motion.displacement_m[p] = {0, 0, -way_m};
         const tools::MotionStep expected = reference.step(state, motion, kDtS);
         state = expected.state;
-        const Point force_n = tools::force_on_plate_n(press, expected.solution);
+        const Point force_n = tools::force_on_plate_n(cube.press, expected.solution);
         const double error_n =
             norm({step.force_n[0] - force_n[0], step.force_n[1] - force_n[1], step.force_n[2] - force_n[2]});
         largest_n = std::max(largest_n, norm(force_n));
@@ -96,21 +72,8 @@ TEST_P(MotionAgainstReference, Force_under_a_trembling_plate_is_that_of_converge
     RecordProperty("error_over_largest_force", testing::PrintToString(worst_error_n / largest_n));
 }
 
-std::vector<Press> presses() {
-    std::vector<Press> result;
-    for (int scenario = tools::kFirstScenario; scenario <= tools::kLastScenario; ++scenario)
-        result.push_back({scenario, 4});
-    result.push_back({1, 6});
-    result.push_back({8, 6});
-    return result;
-}
-
-INSTANTIATE_TEST_SUITE_P(Press, MotionAgainstReference, testing::ValuesIn(presses()), [](const auto& press) {
-    return std::string("scenario")
-        .append(std::to_string(press.param.scenario))
-        .append("_n")
-        .append(std::to_string(press.param.cells));
-});
+INSTANTIATE_TEST_SUITE_P(Press, MotionAgainstReference, testing::ValuesIn(test::scenario_presses(4, 6)),
+                         [](const auto& press) { return test::name_of(press.param); });
 
 }  // namespace
 }  // namespace knead

@@ -8,7 +8,7 @@
 
 #include "knead/formats/asset.h"
 #include "knead/formats/material.h"
-#include "reference/plate_press.h"
+#include "stability/scenario_press.h"
 
 namespace knead::test {
 
@@ -22,7 +22,8 @@ struct PressAsset {
 ///
 /// Made by hand, without the baking tool: what is compared here is the solvers. Free nodes keep the order of
 /// the mesh, held ones come last; the palette holds every different (E, nu, density) once.
-inline PressAsset press_asset(const TetMesh& mesh, const Material& material, const tools::PlatePress& press) {
+inline PressAsset press_asset(const PressedCube& cube) {
+    const auto& [mesh, material, press] = cube;
     PressAsset result;
     Asset& asset = result.asset;
     asset.name = "press";

@@ -3,21 +3,15 @@
 
 #include <cmath>
 #include <ostream>
-#include <stdexcept>
 
 #include "reference/implicit_euler.h"
 #include "stability/contact_scene.h"
+#include "support/simulation_of.h"
 
 namespace knead::test {
 namespace {
 
 constexpr double kDtS = 1e-3;
-
-Simulation simulation_of(const Asset& asset) {
-    Result<Simulation> created = Simulation::create(asset);
-    if (!created.ok()) throw std::runtime_error(created.error().text());
-    return std::move(created).value();
-}
 
 Eigen::Matrix3Xd positions(const Simulation& simulation) {
     return Eigen::Map<const Eigen::Matrix3Xd>(simulation.positions_m(), 3,

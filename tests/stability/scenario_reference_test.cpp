@@ -9,9 +9,7 @@
 #include <ostream>
 #include <string>
 
-#include "material/scenario.h"
-#include "reference/plate_press.h"
-#include "support/kuhn_cube.h"
+#include "stability/scenario_press.h"
 #include "unit/reference/uniform_material.h"
 
 namespace knead::tools {
@@ -19,9 +17,6 @@ namespace {
 
 constexpr std::uint32_t kCells = 10;
 constexpr std::size_t kSeeds = 5;
-constexpr double kPoissonsRatio = 0.3;
-constexpr double kDensityKgPerM3 = 1000;  // 1 kg in a cube of 0.1 m
-constexpr double kStrain = 0.1;
 // The press of this cube at 22 kPa, from two programs of other authors (docs/reference.md).
 constexpr double kHomogeneousN = 23.51532;
 constexpr double kHomogeneousPa = 22000;
@@ -79,7 +74,7 @@ double mean_youngs_modulus_pa(const TetMesh& mesh, const Material& material) {
 }
 
 double press_force_n(const TetMesh& mesh, const Material& material) {
-    const PlatePress press = plate_press(mesh, kStrain);
+    const PlatePress press = plate_press(mesh, test::kPressStrain);
     return force_on_plate_n(press, StaticProblem(mesh, material).solve(press.motion))[2];
 }
 
@@ -94,7 +89,7 @@ TEST_P(ScenarioReference, Press_of_five_seeds_gives_the_published_force_and_homo
     // of plate_press show it, so one known press serves all homogenised bodies.
     tbb::parallel_for(std::size_t{0}, kSeeds, [&](std::size_t k) {
         const Material material =
-            scenario_material(mesh, row.scenario, k + 1, kPoissonsRatio, kDensityKgPerM3);
+            scenario_material(mesh, row.scenario, k + 1, test::kCubePoissonsRatio, test::kCubeDensityKgPerM3);
         force_n[k] = press_force_n(mesh, material);
         const double homogenised_n = kHomogeneousN * mean_youngs_modulus_pa(mesh, material) / kHomogeneousPa;
         homogenised_percent[k] = 100 * (homogenised_n / force_n[k] - 1);
@@ -113,10 +108,10 @@ INSTANTIATE_TEST_SUITE_P(All, ScenarioReference, testing::ValuesIn(kTable), [](c
 });
 
 TEST(HomogenisedReference, Homogenised_press_solved_outright_is_the_known_press_in_proportion) {
-    const TetMesh mesh = test::kuhn_cube(kCells);
-    const Material material = scenario_material(mesh, 1, 1, kPoissonsRatio, kDensityKgPerM3);
-    const double mean_pa = mean_youngs_modulus_pa(mesh, material);
-    const double force_n = press_force_n(mesh, test::uniform_material(mesh, mean_pa, kPoissonsRatio));
+    const test::PressedCube cube({1, kCells});
+    const double mean_pa = mean_youngs_modulus_pa(cube.mesh, cube.material);
+    const double force_n =
+        press_force_n(cube.mesh, test::uniform_material(cube.mesh, mean_pa, test::kCubePoissonsRatio));
     EXPECT_NEAR(force_n, kHomogeneousN * mean_pa / kHomogeneousPa, kPrintedDigits * force_n);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "stability/contact_runs.h"
+#include "stability/touch.h"
 
 namespace knead::test {
 namespace {
@@ -23,27 +24,14 @@ std::vector<Pose> tap_twice(const std::vector<Pose>& rest, double time_s) {
     return {moved(rest[0], way, Eigen::AngleAxisd(0, Eigen::Vector3d::UnitZ()))};
 }
 
-struct Touch {
-    ToolShape shape;
-    ToolContact contact;
-};
-
-void PrintTo(const Touch& touch, std::ostream* out) {
-    *out << "shape " << static_cast<int>(touch.shape) << ", contact " << static_cast<int>(touch.contact);
-}
-
 class TouchAndLeave : public testing::TestWithParam<Touch> {
   protected:
     TouchAndLeave() {
-        Asset asset = scenario_cube(kCells);
-        asset.tools = {tool_above(asset, GetParam().shape, GetParam().contact)};
-        scene_ = scene_of(asset);
-        run_ = run_runtime(scene_, tap_twice, kDtS, kSteps);
         for (const std::vector<ToolSample>& tools : run_.steps)
             largest_n_ = std::max(largest_n_, tools[0].force_n.norm());
     }
-    ContactScene scene_;
-    Record run_;
+    ContactScene scene_ = touched_cube(GetParam(), kCells);
+    Record run_ = run_runtime(scene_, tap_twice, kDtS, kSteps);
     double largest_n_ = 0;
 };
 
@@ -128,19 +116,10 @@ TEST_P(JumpOfForce, Is_no_more_than_stiffness_and_the_inertia_of_the_caught_node
     RecordProperty("jump_over_bound", testing::PrintToString(nearest));
 }
 
-std::vector<Touch> touches() {
-    std::vector<Touch> result;
-    for (const ToolShape shape : {ToolShape::plate, ToolShape::sphere, ToolShape::capsule})
-        for (const ToolContact contact :
-             {ToolContact::frictionless, ToolContact::sticking, ToolContact::coulomb})
-            result.push_back({shape, contact});
-    return result;
-}
-
-INSTANTIATE_TEST_SUITE_P(Tool, TouchAndLeave, testing::ValuesIn(touches()));
+INSTANTIATE_TEST_SUITE_P(Tool, TouchAndLeave, testing::ValuesIn(all_touches()));
 
 std::vector<Touch> not_sticking() {
-    std::vector<Touch> result = touches();
+    std::vector<Touch> result = all_touches();
     std::erase_if(result, [](const Touch& t) { return t.contact == ToolContact::sticking; });
     return result;
 }

@@ -14,7 +14,8 @@ namespace {
 constexpr double kSufficientDecrease = 1e-4;  // Armijo's share of the decrease that the slope promises
 constexpr double kSmallestStep = 1e-10;
 // Promised decreases below this share of the merit drown in the rounding of its sums: the step is then taken
-// whole and the conditions of contact judge it.
+// whole and the conditions of contact judge it. So they do below unseen_j(), where at rest there is no merit
+// to be a share of.
 constexpr double kUnseenDecrease = 1e-9;
 constexpr double kSupport = 30;  // of the largest stiffness of a tetrahedron: stiff, and harmless to rounding
 constexpr double kPenaltyMargin = 2;     // an exact penalty must exceed the largest force
@@ -23,8 +24,10 @@ constexpr double kCatchTolerance = 0.1;  // of the limit of the gap: what is cau
 /// One Newton iteration's view of the contact problem.
 class Iteration {
   public:
-    Iteration(StepModel& model, FreeSystem& system, const Eigen::VectorXd& target_m, ContactSet& set)
-        : model_(model), system_(system), target_(target_m), set_(set) {}
+    /// @param unseen_j promised decreases that are left to the conditions of contact
+    Iteration(StepModel& model, FreeSystem& system, const Eigen::VectorXd& target_m, ContactSet& set,
+              double unseen_j)
+        : model_(model), system_(system), target_(target_m), set_(set), unseen_j_(unseen_j) {}
 
     bool prepare(const Eigen::VectorXd& positions_m);
     void solve_laws(const ContactLimits& limits, double catch_tolerance_m, ContactEffort& effort);
@@ -47,6 +50,7 @@ class Iteration {
     FreeSystem& system_;
     const Eigen::VectorXd& target_;
     ContactSet& set_;
+    double unseen_j_;
     bool factorised_ = false;
     std::vector<NodeBlock> support_;  // those in the factor
     Eigen::VectorXd positions_, gradient_, alone_, direction_;
@@ -278,7 +282,7 @@ bool Iteration::advance(Eigen::VectorXd& positions_m) {
     };
     const double start_j = merit(positions_);
     const double slope_j = (gradient_ - friction).dot(direction_) - penalty_n * violation_m(positions_);
-    const bool unseen = -slope_j <= kUnseenDecrease * std::abs(start_j);
+    const bool unseen = -slope_j <= std::max(kUnseenDecrease * std::abs(start_j), unseen_j_);
     for (double step = 1; step >= kSmallestStep; step /= 2) {
         Eigen::VectorXd trial = positions_ + step * direction_;
         if (step == 1) arrive(trial);
@@ -295,6 +299,15 @@ bool Iteration::advance(Eigen::VectorXd& positions_m) {
 double extent_m(const Eigen::VectorXd& rest_m) {
     const Eigen::Map<const Eigen::Matrix3Xd> points(rest_m.data(), 3, rest_m.size() / 3);
     return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
+}
+
+double gap_limit_m(const StepModel& model, const ContactLimits& limits) {
+    return limits.relative_gap * extent_m(model.objective().body->rest_positions_m());
+}
+
+/// What the rounding of the forces does along the smallest way that counts.
+double unseen_j(const StepModel& model, const ContactLimits& limits) {
+    return model.objective().rounding_noise_n() * gap_limit_m(model, limits);
 }
 
 [[noreturn]] void give_up(const char* why, const ContactEffort& effort, const ContactCheck& check) {
@@ -318,7 +331,7 @@ ContactCheck check_contact(const StepModel& model, const std::vector<bool>& is_p
                            const Eigen::VectorXd& positions_m, const ContactLimits& limits) {
     ContactCheck check;
     const Objective& objective = model.objective();
-    check.gap_limit_m = limits.relative_gap * extent_m(objective.body->rest_positions_m());
+    check.gap_limit_m = gap_limit_m(model, limits);
     const Eigen::VectorXd gradient = model.gradient_n(positions_m);
     Eigen::VectorXd left = gradient;
     for (Eigen::Index k = 0; k < left.size(); ++k) {
@@ -369,9 +382,8 @@ ContactEffort solve_contact(StepModel& model, FreeSystem& system, const Eigen::V
                             const ContactLimits& limits, ContactSet& set, Eigen::VectorXd& positions_m,
                             ContactCheck& check) {
     ContactEffort effort;
-    Iteration iteration(model, system, target_m, set);
-    const double catch_tolerance_m =
-        kCatchTolerance * limits.relative_gap * extent_m(model.objective().body->rest_positions_m());
+    Iteration iteration(model, system, target_m, set, unseen_j(model, limits));
+    const double catch_tolerance_m = kCatchTolerance * gap_limit_m(model, limits);
     while (effort.newton_iterations < limits.max_iterations) {
         ++effort.newton_iterations;
         if (!iteration.prepare(positions_m)) give_up("the system is singular", effort, check);

@@ -10,31 +10,15 @@
 #include "common/error.h"
 #include "reference/contact_newton.h"
 #include "reference/contact_set.h"
+#include "reference/moving_body.h"
 #include "reference/prescribed_unknowns.h"
 #include "reference/step_model.h"
 
 namespace knead::tools {
 
 struct ContactProblem::Impl {
-    ElasticBody body;
-    Eigen::VectorXd mass_kg;  // [3 nodes]
-    Eigen::VectorXd gravity_m_per_s2;
-    double damping_per_s;
-    std::optional<FreeSystem> system;  // of the last set of held unknowns
+    MovingBody body;
 
-    FreeSystem& system_for(const std::vector<bool>& is_prescribed) {
-        if (!system || system->is_prescribed() != is_prescribed) system.emplace(body, is_prescribed);
-        return *system;
-    }
-    [[nodiscard]] Objective step_objective(const Eigen::VectorXd& x0, const Eigen::VectorXd& v0,
-                                           double dt_s) const {
-        const double rate = 1 / (dt_s * dt_s) + damping_per_s / dt_s;
-        Objective result;
-        result.body = &body;
-        result.weight_n_per_m = mass_kg * rate;
-        result.anchor_m = x0 + (v0 / dt_s + gravity_m_per_s2) / rate;
-        return result;
-    }
     ContactSolution solve(StepModel& model, const PrescribedMotion& held, const PrescribedUnknowns& unknowns,
                           const std::vector<ContactTool>& tools, ContactSet& set, const ContactLimits& limits,
                           Eigen::VectorXd& positions);
@@ -75,11 +59,6 @@ ToolReaction reaction_of(std::size_t tool, std::size_t node_count, const Contact
     return reaction;
 }
 
-void check_step(double dt_s) {
-    if (!std::isfinite(dt_s) || dt_s <= 0)
-        fail_input(fmt::format("time step is {} s, not finite and > 0", dt_s));
-}
-
 }  // namespace
 
 ContactSolution ContactProblem::Impl::solve(StepModel& model, const PrescribedMotion& held,
@@ -87,7 +66,7 @@ ContactSolution ContactProblem::Impl::solve(StepModel& model, const PrescribedMo
                                             const std::vector<ContactTool>& tools, ContactSet& set,
                                             const ContactLimits& limits, Eigen::VectorXd& positions) {
     ContactSolution solution;
-    FreeSystem& free_system = system_for(unknowns.is_prescribed);
+    FreeSystem& free_system = body.system_for(unknowns.is_prescribed);
     const ContactEffort effort =
         solve_contact(model, free_system, unknowns.target_m, limits, set, positions, solution.check);
     const Eigen::VectorXd gradient = model.gradient_n(positions);
@@ -102,7 +81,6 @@ ContactSolution ContactProblem::Impl::solve(StepModel& model, const PrescribedMo
     solution.newton_iterations = effort.newton_iterations;
     solution.law_iterations = effort.law_iterations;
     solution.law_fallbacks = effort.law_fallbacks;
-    solution.state.positions_m = to_points(positions);
     return solution;
 }
 
@@ -139,40 +117,29 @@ ContactTool contact_tool(const ToolSet& set, const std::vector<Point>& rest_m) {
 }
 
 ContactProblem::ContactProblem(const TetMesh& mesh, const Material& material, const BodyForces& forces)
-    : impl_(std::make_unique<Impl>(Impl{ElasticBody(mesh, material), {}, {}, forces.damping_per_s, {}})) {
-    if (!std::isfinite(forces.damping_per_s) || forces.damping_per_s < 0)
-        fail_input(fmt::format("damping is {} per second, not finite and >= 0", forces.damping_per_s));
-    const std::size_t nodes = impl_->body.node_count();
-    impl_->mass_kg = impl_->body.lumped_mass_kg().transpose().replicate(3, 1).reshaped();
-    impl_->gravity_m_per_s2 =
-        to_unknowns(std::vector<Point>(nodes, forces.gravity_m_per_s2), nodes, "gravity");
-}
-
+    : impl_(new Impl{{mesh, material, forces}}) {}
 ContactProblem::ContactProblem(ContactProblem&&) noexcept = default;
 ContactProblem& ContactProblem::operator=(ContactProblem&&) noexcept = default;
 ContactProblem::~ContactProblem() = default;
 
 MotionState ContactProblem::rest() const {
-    return {to_points(impl_->body.rest_positions_m()),
-            std::vector<Point>(impl_->body.node_count(), Point{0, 0, 0})};
+    return impl_->body.rest();
 }
 
 ContactSolution ContactProblem::equilibrium(const PrescribedMotion& held,
                                             const std::vector<ContactTool>& tools,
                                             const std::vector<Point>& start_m, const ContactLimits& limits) {
     check_limits(limits);
-    const ElasticBody& body = impl_->body;
+    const ElasticBody& body = impl_->body.elastic();
     const PrescribedUnknowns unknowns = spread(held, body.rest_positions_m());
     Eigen::VectorXd positions = start_m.empty() ? body.rest_positions_m()
                                                 : to_unknowns(start_m, body.node_count(), "start positions");
     Objective objective;
     objective.body = &body;
-    Eigen::VectorXd load;
-    if (!impl_->gravity_m_per_s2.isZero(0)) load = impl_->mass_kg.cwiseProduct(impl_->gravity_m_per_s2);
-    StepModel model(objective, load, std::nullopt);
+    StepModel model(objective, impl_->body.weight_n(), std::nullopt);
     ContactSet set(tools, unknowns.is_prescribed, positions, positions, false);
     ContactSolution solution = impl_->solve(model, held, unknowns, tools, set, limits, positions);
-    solution.state.velocities_m_per_s.assign(body.node_count(), Point{0, 0, 0});
+    solution.state = {to_points(positions), std::vector<Point>(body.node_count(), Point{0, 0, 0})};
     return solution;
 }
 
@@ -180,16 +147,13 @@ ContactSolution ContactProblem::step(const MotionState& from, const PrescribedMo
                                      const std::vector<ContactTool>& tools, double dt_s,
                                      const ContactLimits& limits) {
     check_limits(limits);
-    check_step(dt_s);
-    const ElasticBody& body = impl_->body;
-    const PrescribedUnknowns unknowns = spread(held, body.rest_positions_m());
-    const Eigen::VectorXd x0 = to_unknowns(from.positions_m, body.node_count(), "positions");
-    const Eigen::VectorXd v0 = to_unknowns(from.velocities_m_per_s, body.node_count(), "velocities");
-    StepModel model(impl_->step_objective(x0, v0, dt_s), {}, std::nullopt);
-    ContactSet set(tools, unknowns.is_prescribed, x0, x0 + dt_s * v0, false);
-    Eigen::VectorXd positions = x0;
+    const PosedStep step = impl_->body.step_from(from, dt_s);
+    const PrescribedUnknowns unknowns = spread(held, impl_->body.elastic().rest_positions_m());
+    StepModel model(step.objective, {}, std::nullopt);
+    ContactSet set(tools, unknowns.is_prescribed, step.start_m, step.ahead_m(), false);
+    Eigen::VectorXd positions = step.start_m;
     ContactSolution solution = impl_->solve(model, held, unknowns, tools, set, limits, positions);
-    solution.state.velocities_m_per_s = to_points((positions - x0) / dt_s);
+    solution.state = step.end(positions);
     return solution;
 }
 
@@ -197,14 +161,10 @@ ContactSolution ContactProblem::linearised_step(const MotionState& from, const P
                                                 const std::vector<ContactTool>& tools, double dt_s,
                                                 const LinearisedAt& at, const ContactLimits& limits) {
     check_limits(limits);
-    check_step(dt_s);
-    const ElasticBody& body = impl_->body;
-    const PrescribedUnknowns unknowns = spread(held, body.rest_positions_m());
-    const Eigen::VectorXd x0 = to_unknowns(from.positions_m, body.node_count(), "positions");
-    const Eigen::VectorXd v0 = to_unknowns(from.velocities_m_per_s, body.node_count(), "velocities");
-    const Eigen::VectorXd predicted = x0 + dt_s * v0;
-    ContactSet set(tools, unknowns.is_prescribed, x0, predicted, true);
-    Eigen::VectorXd point = predicted;
+    const PosedStep step = impl_->body.step_from(from, dt_s);
+    const PrescribedUnknowns unknowns = spread(held, impl_->body.elastic().rest_positions_m());
+    ContactSet set(tools, unknowns.is_prescribed, step.start_m, step.ahead_m(), true);
+    Eigen::VectorXd point = step.ahead_m();
     for (Eigen::Index k = 0; k < point.size(); ++k)
         if (unknowns.is_prescribed[static_cast<std::size_t>(k)]) point[k] = unknowns.target_m[k];
     if (at.stuck_at_target)
@@ -212,11 +172,11 @@ ContactSolution ContactProblem::linearised_step(const MotionState& from, const P
             if (candidate.touching && candidate.law.friction > 0)
                 point.segment<3>(first_unknown(candidate.node)) = candidate.anchor_m;
     if (!at.positions_m.empty())
-        point = to_unknowns(at.positions_m, body.node_count(), "linearisation point");
-    StepModel model(impl_->step_objective(x0, v0, dt_s), {}, point);
+        point = to_unknowns(at.positions_m, impl_->body.elastic().node_count(), "linearisation point");
+    StepModel model(step.objective, {}, point);
     Eigen::VectorXd positions = point;
     ContactSolution solution = impl_->solve(model, held, unknowns, tools, set, limits, positions);
-    solution.state.velocities_m_per_s = to_points((positions - x0) / dt_s);
+    solution.state = step.end(positions);
     return solution;
 }
 

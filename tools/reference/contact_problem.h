@@ -166,9 +166,10 @@ class ContactProblem {
                                        const ContactLimits& limits = {});
 
     /// The step as the runtime poses it: elastic force and corotational stiffness R K0 R^T of one
-    /// linearisation point, the tangent plane of a curved tool taken once (at the linearisation point for a
-    /// node that touched before, at the place where it is caught for a new one). Contact is exact for that
-    /// problem; a node that is not touched keeps clear of the true surface.
+    /// linearisation point, the tangent plane of a curved tool taken once (at its anchor for a node that
+    /// stuck in the step before, at the linearisation point for one that slid, at the place where it is
+    /// caught for a new one). Contact is exact for that problem; a node that is not touched keeps clear of
+    /// the true surface.
     [[nodiscard]] ContactSolution linearised_step(const MotionState& from, const PrescribedMotion& held,
                                                   const std::vector<ContactTool>& tools, double dt_s,
                                                   const LinearisedAt& at = {},

@@ -82,6 +82,7 @@ void ContactSet::add_tool(const ContactTool& tool, const std::vector<bool>& is_p
         candidate.ignored = before.mode == TouchMode::beside;
         candidate.known = candidate.touching =
             before.mode == TouchMode::sticking || before.mode == TouchMode::sliding;
+        candidate.stuck_before = before.mode == TouchMode::sticking;
         if (candidate.known) {
             const Eigen::Vector3d anchor(before.anchor_m.data());
             if (!anchor.allFinite())
@@ -94,10 +95,11 @@ void ContactSet::add_tool(const ContactTool& tool, const std::vector<bool>& is_p
 
 void ContactSet::take_plane(Candidate& candidate, const Eigen::Vector3d& place_m) const {
     const ToolSurface& surface = surfaces_[candidate.tool];
-    const Eigen::Vector3d where = candidate.keeps_anchor ? candidate.anchor_m : place_m;
+    const bool at_anchor = candidate.keeps_anchor || (planes_stay_ && candidate.stuck_before);
+    const Eigen::Vector3d where = at_anchor ? candidate.anchor_m : place_m;
     const SurfacePoint point = surface.nearest(surface.to_local(where));
     candidate.frame = frame_along(surface.rotation() * point.normal);
-    candidate.foot_m = candidate.keeps_anchor ? candidate.anchor_m : surface.to_scene(point.foot_m);
+    candidate.foot_m = at_anchor ? candidate.anchor_m : surface.to_scene(point.foot_m);
     candidate.has_plane = true;
 }
 

@@ -16,6 +16,7 @@ struct Candidate {
     std::uint32_t node = 0;
     NodeLaw law;
     bool keeps_anchor = false;  ///< sticking and bonded: touching means being at the anchor
+    bool stuck_before = false;  ///< it touched and did not slip in the step before
     bool ignored = false;       ///< beside the plate
     bool let_slide = false;     ///< sticking has no solution for it in this step
     bool known = false;         ///< among the nodes whose law is solved

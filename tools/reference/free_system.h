@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "reference/elastic_body.h"
@@ -46,6 +47,18 @@ class FreeSystem {
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
+};
+
+/// The system of the set of prescribed unknowns last asked for.
+class KeptSystem {
+  public:
+    [[nodiscard]] FreeSystem& of(const ElasticBody& body, const std::vector<bool>& is_prescribed) {
+        if (!system_ || system_->is_prescribed() != is_prescribed) system_.emplace(body, is_prescribed);
+        return *system_;
+    }
+
+  private:
+    std::optional<FreeSystem> system_;
 };
 
 }  // namespace knead::tools

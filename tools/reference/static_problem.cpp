@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
 
 #include "common/error.h"
 #include "reference/load_steps.h"
@@ -14,12 +13,7 @@ namespace knead::tools {
 
 struct StaticProblem::Impl {
     ElasticBody body;
-    std::optional<FreeSystem> system;  // of the last set of prescribed unknowns
-
-    FreeSystem& system_for(const std::vector<bool>& is_prescribed) {
-        if (!system || system->is_prescribed() != is_prescribed) system.emplace(body, is_prescribed);
-        return *system;
-    }
+    KeptSystem system;
 };
 
 StaticProblem::StaticProblem(const TetMesh& mesh, const Material& material)
@@ -36,14 +30,14 @@ StaticSolution StaticProblem::solve(const PrescribedMotion& prescribed, const st
                                                 : to_unknowns(start_m, body.node_count(), "start positions");
     Objective objective;
     objective.body = &body;
-    return equilibrium(objective, impl_->system_for(unknowns.is_prescribed), prescribed, unknowns.target_m,
-                       limits, positions);
+    return equilibrium(objective, impl_->system.of(body, unknowns.is_prescribed), prescribed,
+                       unknowns.target_m, limits, positions);
 }
 
 StaticSolution StaticProblem::solve_linear(const PrescribedMotion& prescribed) {
     const ElasticBody& body = impl_->body;
     const PrescribedUnknowns unknowns = spread(prescribed, body.rest_positions_m());
-    FreeSystem& system = impl_->system_for(unknowns.is_prescribed);
+    FreeSystem& system = impl_->system.of(body, unknowns.is_prescribed);
     Objective objective;
     objective.body = &body;
 

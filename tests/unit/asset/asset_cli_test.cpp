@@ -89,7 +89,7 @@ TEST_F(Asset_program, Export_writes_both_formats) {
 TEST_F(Asset_program, Says_how_it_is_used) {
     EXPECT_EQ(run("--help").code, 0);
     EXPECT_EQ(run("info --help").code, 0);
-    EXPECT_THAT(run("--version").out, HasSubstr("file format 1.1"));
+    EXPECT_THAT(run("--version").out, HasSubstr("file format 1.2"));
     EXPECT_EQ(run("").code, 2);
     EXPECT_EQ(run("info").code, 2);
     EXPECT_EQ(run("melt asset.hdf").code, 2);

@@ -98,10 +98,12 @@ TEST(Choice_of_numerics, Does_not_look_at_palette_entries_that_no_tetrahedron_us
 TEST(Choice_of_numerics, Says_why_in_one_sentence) {
     EXPECT_EQ(
         to_text(choose_numerics(asset_of(1296, 10, 0.3))),
-        "contrast 10, Poisson's ratio up to 0.3, 1296 tetrahedra: solved in float32 (low contrast), "
-        "preconditioned by the factor of the rest state (few tetrahedra) kept in fixed16 (low contrast)");
+        "contrast 10, Poisson's ratio up to 0.3, 1296 tetrahedra: solved in float32 (contrast up to 1e+04), "
+        "preconditioned by the factor of the rest state (few tetrahedra) kept in fixed16 (contrast up to "
+        "1e+06)");
     EXPECT_EQ(to_text(choose_numerics(asset_of(20000, 10, 0.46))),
-              "contrast 10, Poisson's ratio up to 0.46, 20000 tetrahedra: solved in float32 (low contrast), "
+              "contrast 10, Poisson's ratio up to 0.46, 20000 tetrahedra: solved in float32 (contrast up to "
+              "1e+04), "
               "preconditioned by a sparse approximate inverse (nearly incompressible)");
     Asset stiff_path = with_a_stiff_path(1e7);
     stiff_path.tools.resize(1);

@@ -54,6 +54,26 @@ TEST(ContactProblem, Plate_on_the_tip_of_one_tetrahedron_feels_stiffness_times_d
     EXPECT_EQ(vec(apart.tools[0].force_n).norm(), 0);
 }
 
+TEST(ContactProblem, Body_at_rest_with_a_tool_apart_or_at_its_surface_stays_at_rest_without_force) {
+    const Scene scene(4);  // whose forces at rest are rounding, not zero
+    ContactProblem problem(scene.mesh, scene.material);
+    constexpr double kRoundingN = 1e-11;  // what is left of stresses of 1e4 Pa on faces of 1e-3 m^2
+    for (const ToolContact law : {ToolContact::sticking, ToolContact::frictionless, ToolContact::coulomb}) {
+        for (const double depth_m : {-1e-3, 0.0, 1e-15}) {
+            const ContactTool tool = scene.plate(law, depth_m);
+            for (const ContactSolution& solution :
+                 {problem.step(problem.rest(), scene.held, {tool}, kDtS),
+                  problem.linearised_step(problem.rest(), scene.held, {tool}, kDtS),
+                  problem.equilibrium(scene.held, {tool})}) {
+                EXPECT_LT(vec(solution.tools[0].force_n).norm(), kRoundingN);
+                for (std::size_t n = 0; n < scene.mesh.nodes_m.size(); ++n)
+                    EXPECT_LT((vec(solution.state.positions_m[n]) - vec(scene.mesh.nodes_m[n])).norm(),
+                              kTolerance * kSideM);
+            }
+        }
+    }
+}
+
 TEST(ContactProblem, Frictionless_plate_on_a_homogeneous_cube_gives_the_uniaxial_force_and_expansion) {
     Scene scene(4, false);
     constexpr double kStrain = 0.1;

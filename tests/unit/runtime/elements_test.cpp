@@ -5,16 +5,18 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <random>
 #include <type_traits>
 
-#include "core/tet_strips.h"
+#include "support/random.h"
+#include "support/svd_rotation.h"
 #include "unit/runtime/block_asset.h"
 
 namespace knead::core {
 namespace {
 
 using test::asset_of;
+using test::Random;
+using test::svd_rotation;
 
 /// Central differences of an energy around 1 J with steps of 1e-6 m, against forces around 1e3 N.
 constexpr double kDifferenceTolerance = 1e-6;
@@ -24,28 +26,6 @@ constexpr double kRounding = std::is_same_v<S, float> ? 1e-5 : 1e-12;
 /// What Newton's last step leaves (its square), and rounding; relative to how well the rotation is defined.
 template <class S>
 constexpr double kAngleTolerance = std::is_same_v<S, float> ? 2e-6 : 1e-12;
-
-class Random {
-  public:
-    explicit Random(std::uint64_t seed) : engine_(seed) {}
-    double uniform(double low, double high) {
-        return low + (high - low) * static_cast<double>(engine_() >> 11U) * 0x1.0p-53;
-    }
-    Mat matrix(double size) {
-        Mat m;
-        for (int i = 0; i < 9; ++i)
-            m(i) = uniform(-size, size);
-        return m;
-    }
-    Mat turn() {
-        return Quat(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1))
-            .normalized()
-            .toRotationMatrix();
-    }
-
-  private:
-    std::mt19937_64 engine_;
-};
 
 std::vector<SimdTarget> targets() {
     std::vector<SimdTarget> result;
@@ -169,15 +149,6 @@ Mat edges_of(const Element& element, const Field& x) {
 
 Mat deformation_gradient(const Model& model, const Element& element, const Field& u) {
     return Mat::Identity() + edges_of(element, u) * edges_of(element, model.rest_m).inverse();
-}
-
-/// @param gap how far the nearest rotation is ahead of the second: its condition is the inverse of it
-Mat svd_rotation(const Mat& f, double* gap = nullptr) {
-    const Eigen::JacobiSVD<Mat> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Vec sign = Vec::Ones();
-    if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign.z() = -1;
-    if (gap != nullptr) *gap = svd.singularValues()[1] + sign.z() * svd.singularValues()[2];
-    return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
 }
 
 double energy(const Model& model, const Field& u) {
@@ -542,7 +513,7 @@ TYPED_TEST(ElementRotations, of_tetrahedra_pressed_flat_and_through_equal_the_sv
     Random random(3);
     std::vector<Mat> turns;
     for (int t = 0; t < 100; ++t)
-        turns.push_back(random.turn());
+        turns.push_back(random.rotation().toRotationMatrix());
     std::size_t call = 0;
     expect_svd_rotations<TypeParam>(turns.size(), 20, [&](std::size_t t) -> Mat {
         const double thickness = 0.5 - 0.05 * static_cast<double>(call++ / turns.size());  // .5 to -.45
@@ -554,7 +525,7 @@ TYPED_TEST(ElementRotations, of_nearly_singular_gradients_equal_the_svd) {
     Random random(4);
     expect_svd_rotations<TypeParam>(200, 5, [&](std::size_t t) -> Mat {
         const double thickness = std::array{1e-3, 1e-6, 1e-9, -1e-6}[t % 4];
-        return random.turn() * Vec(1, 0.8, thickness).asDiagonal() * random.turn();
+        return random.rotation() * Vec(1, 0.8, thickness).asDiagonal() * random.rotation();
     });
 }
 
@@ -595,66 +566,6 @@ TYPED_TEST(ElementRotations, stay_unit_quaternions_over_many_moves) {
         (void)body.linearise(random_move(model, 1e-4, k));
     for (std::size_t e = 0; e < model.elements.size(); ++e)
         EXPECT_NEAR(body.elements().rotation(e).norm(), 1, kAngleTolerance<TypeParam>);
-}
-
-// ---- Strips
-
-/// Every tetrahedron once, on its own nodes. @return strips
-std::vector<TetStrip> expect_cover(const Model& model) {
-    const std::vector<TetStrip> strips = make_tet_strips(model.elements);
-    std::vector<int> seen(model.elements.size(), 0);
-    for (const TetStrip& strip : strips) {
-        for (std::size_t k = 0; k < kTetsInStrip && strip.elements[k] != TetStrip::kNone; ++k) {
-            ++seen[strip.elements[k]];
-            std::array<std::uint32_t, 4> nodes{strip.nodes[0], strip.nodes[k + 1], strip.nodes[k + 2],
-                                               strip.nodes[k + 3]};
-            auto expected = model.elements[strip.elements[k]].nodes;
-            std::sort(nodes.begin(), nodes.end());
-            std::sort(expected.begin(), expected.end());
-            EXPECT_EQ(nodes, expected);
-        }
-    }
-    EXPECT_EQ(seen, std::vector<int>(seen.size(), 1));
-    return strips;
-}
-
-TEST(TetStrips, of_a_cube_of_cells_are_all_full) {
-    EXPECT_EQ(expect_cover(model_of(test::kuhn_cube(4))).size(), 4U * 4U * 4U * 6U / 3U);
-}
-
-TEST(TetStrips, of_a_mesh_with_holes_are_nearly_all_full) {
-    TetMesh mesh = test::kuhn_cube(6);
-    Random random(1);
-    const auto is_hole = [&](const Tetrahedron&) { return random.uniform(0, 1) < 0.2; };
-    mesh.tetrahedra.erase(std::remove_if(mesh.tetrahedra.begin(), mesh.tetrahedra.end(), is_hole),
-                          mesh.tetrahedra.end());
-    const std::size_t count = mesh.tetrahedra.size();
-    EXPECT_LT(static_cast<double>(expect_cover(model_of(mesh)).size()),
-              1.06 * static_cast<double>(count) / 3);
-}
-
-TEST(TetStrips, of_tetrahedra_in_a_row_are_repaired_until_full) {
-    // A chain of six whose numbering invites the greedy choice to leave ends over.
-    EXPECT_EQ(
-        expect_cover(
-            tetrahedra_on(
-                {{2, 3, 4, 5}, {0, 1, 2, 3}, {5, 6, 7, 8}, {1, 2, 3, 4}, {4, 5, 6, 7}, {3, 4, 5, 6}}, 9))
-            .size(),
-        2U);
-}
-
-TEST(TetStrips, of_a_star_are_one_full_and_two_singles) {
-    const Model star =
-        tetrahedra_on({{0, 1, 2, 3}, {0, 1, 2, 4}, {0, 1, 3, 5}, {0, 2, 3, 6}, {1, 2, 3, 7}}, 8);
-    EXPECT_EQ(expect_cover(star).size(), 3U);
-}
-
-TEST(TetStrips, of_a_ring_round_an_edge_are_one) {
-    EXPECT_EQ(expect_cover(tetrahedra_on({{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 2}}, 5)).size(), 1U);
-}
-
-TEST(TetStrips, of_nothing_are_none) {
-    EXPECT_TRUE(make_tet_strips({}).empty());
 }
 
 }  // namespace

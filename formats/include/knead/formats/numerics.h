@@ -125,8 +125,8 @@ inline constexpr double kLaplacianMaxContrast = 1e3;
 [[nodiscard]] const char* to_string(FactorStorage storage) noexcept;
 [[nodiscard]] const char* to_string(NumericsReason reason) noexcept;
 
-/// One sentence without its full stop: "contrast 10, ..., 1296 tetrahedra: solved in float32 (low
-/// contrast), preconditioned by ...". Where the path of the force is stiffer than the softest tetrahedron:
+/// One sentence without its full stop: "contrast 10, ..., 1296 tetrahedra: solved in float32 (contrast up to
+/// 1e+04), preconditioned by ...". Where the path of the force is stiffer than the softest tetrahedron:
 /// "contrast 1e+06 (20 against the path from tool to support), ...".
 [[nodiscard]] std::string to_text(const Numerics& numerics);
 
