@@ -58,6 +58,10 @@ const ToolResult& Simulation::tool(std::size_t index) const noexcept {
     return impl_->stepper->tool(index);
 }
 
+bool Simulation::local_model(std::size_t tool, LocalModel& out) noexcept {
+    return impl_->stepper->local_model(tool, out);
+}
+
 void Simulation::reset() noexcept {
     impl_->stepper->reset();
 }

@@ -100,4 +100,30 @@ Model build_model(const Asset& asset, const std::vector<std::size_t>& tools) {
     return model;
 }
 
+std::vector<ToolSet> renumbered(const Asset& asset, const std::vector<std::size_t>& tools,
+                                const Model& model) {
+    std::vector<ToolSet> result;
+    for (const std::size_t k : tools) {
+        result.push_back(asset.tools[k]);
+        for (std::uint32_t& node : result.back().nodes)
+            node = model.from_asset[node];
+        std::sort(result.back().nodes.begin(), result.back().nodes.end());
+    }
+    return result;
+}
+
+std::vector<std::uint32_t> touchable(const Asset& asset, const std::vector<std::size_t>& tools,
+                                     const Model& model) {
+    std::vector<std::uint32_t> result;
+    for (const std::size_t k : tools) {
+        if (asset.tools[k].contact == ToolContact::bonded) continue;
+        for (const std::uint32_t node : asset.tools[k].nodes) {
+            if (model.from_asset[node] < model.free_count) result.push_back(model.from_asset[node]);
+        }
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+}
+
 }  // namespace knead::core

@@ -45,4 +45,12 @@ struct Model {
 /// @param tools the asset's tools that are simulated, by index
 Model build_model(const Asset& asset, const std::vector<std::size_t>& tools);
 
+/// The simulated tools, their nodes numbered as in the model, ascending.
+std::vector<ToolSet> renumbered(const Asset& asset, const std::vector<std::size_t>& tools,
+                                const Model& model);
+
+/// The free nodes that unilateral tools may hold, ascending.
+std::vector<std::uint32_t> touchable(const Asset& asset, const std::vector<std::size_t>& tools,
+                                     const Model& model);
+
 }  // namespace knead::core

@@ -9,13 +9,6 @@ namespace {
 using Mat4 = Eigen::Matrix<Real, 4, 4>;
 using Vec4 = Eigen::Matrix<Real, 4, 1>;
 
-constexpr int kNewtonSteps = 10;
-/// Newton converges quadratically: a step this small leaves an angle of its square (radians).
-constexpr Real kSmallTurn = 1e-6;
-/// A turn beyond this comes from far outside Newton's region: not worth following (radians).
-constexpr Real kLargeTurn = 1.0;
-/// Smallest determinant of the Hessian, relative to the cube of its trace, that is still solved with.
-constexpr Real kSingularHessian = 1e-12;
 constexpr int kJacobiSweeps = 16;
 
 /// q^T N q = tr(R(q)^T F) for q = (w, x, y, z).
@@ -81,40 +74,6 @@ Quat nearest_rotation(const Mat& f) noexcept {
     }
     const Vec4 v = vectors.col(largest).normalized();
     return Quat(v(0), v(1), v(2), v(3));
-}
-
-Mat warm_rotation(const Mat& f, Quat& warm_start) noexcept {
-    Quat q = warm_start;
-    for (int step = 0; step < kNewtonSteps; ++step) {
-        const Mat r = q.toRotationMatrix();
-        const Mat b = r.transpose() * f;
-        // tr(R exp([w])^T F) = tr(B) + w . gradient - w . hessian w / 2 + ...
-        const Vec gradient(b(2, 1) - b(1, 2), b(0, 2) - b(2, 0), b(1, 0) - b(0, 1));
-        const Real trace = b.trace();
-        Mat hessian = Real(-0.5) * (b + b.transpose());
-        hessian.diagonal().array() += trace;
-        // A maximum, and then the global one, only where the Hessian is positive definite (Sylvester).
-        const Real minor1 = hessian(0, 0);
-        const Real minor2 = hessian(0, 0) * hessian(1, 1) - hessian(0, 1) * hessian(0, 1);
-        const Vec row0 = hessian.col(1).cross(hessian.col(2));
-        const Vec row1 = hessian.col(2).cross(hessian.col(0));
-        const Vec row2 = hessian.col(0).cross(hessian.col(1));
-        const Real determinant = hessian.col(0).dot(row0);
-        const Real size = 2 * trace;
-        if (!(minor1 > 0 && minor2 > 0 && determinant > kSingularHessian * size * size * size)) break;
-        const Vec turn = Vec(row0.dot(gradient), row1.dot(gradient), row2.dot(gradient)) / determinant;
-        const Real turned = turn.norm();
-        if (!(turned < kLargeTurn)) break;
-        q = q * Quat(1, turn.x() / 2, turn.y() / 2, turn.z() / 2);
-        q.normalize();
-        if (turned < kSmallTurn) {
-            warm_start = q;
-            return q.toRotationMatrix();
-        }
-    }
-    q = nearest_rotation(f);
-    if (f.allFinite()) warm_start = q;
-    return q.toRotationMatrix();
 }
 
 }  // namespace knead::core

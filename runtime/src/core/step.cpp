@@ -7,6 +7,7 @@
 #include "core/contact.h"
 #include "core/denormals.h"
 #include "core/solver.h"
+#include "core/tool_impedance.h"
 
 namespace knead::core {
 namespace {
@@ -48,34 +49,6 @@ Vec3 to_array(const Vec& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-/// The simulated tools, their nodes numbered as in the model.
-std::vector<ToolSet> renumbered(const Asset& asset, const std::vector<std::size_t>& tools,
-                                const Model& model) {
-    std::vector<ToolSet> result;
-    for (const std::size_t k : tools) {
-        result.push_back(asset.tools[k]);
-        for (std::uint32_t& node : result.back().nodes)
-            node = model.from_asset[node];
-        std::sort(result.back().nodes.begin(), result.back().nodes.end());
-    }
-    return result;
-}
-
-/// The free nodes that unilateral tools may hold.
-std::vector<std::uint32_t> touchable(const Asset& asset, const std::vector<std::size_t>& tools,
-                                     const Model& model) {
-    std::vector<std::uint32_t> result;
-    for (const std::size_t k : tools) {
-        if (asset.tools[k].contact == ToolContact::bonded) continue;
-        for (const std::uint32_t node : asset.tools[k].nodes) {
-            if (model.from_asset[node] < model.free_count) result.push_back(model.from_asset[node]);
-        }
-    }
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
-}
-
 template <class S>
 class TypedStepper final : public Stepper {
   public:
@@ -86,6 +59,7 @@ class TypedStepper final : public Stepper {
     [[nodiscard]] const ToolResult& tool(std::size_t index) const noexcept override {
         return results_[index];
     }
+    bool local_model(std::size_t tool, LocalModel& out) noexcept override;
     void reset() noexcept override;
     [[nodiscard]] std::size_t tool_count() const noexcept override { return tools_.size(); }
     [[nodiscard]] std::size_t node_count() const noexcept override { return model_.rest_m.size(); }
@@ -102,9 +76,10 @@ class TypedStepper final : public Stepper {
         Vec position = Vec::Zero(), velocity = Vec::Zero(), hand = Vec::Zero();  ///< after the last step
         /// Of the nodes bonded to it: place in the tool's frame, velocity, and displacement (all in double,
         /// because a force is read from their changes).
-        std::vector<Vec> anchors, displacements_m, velocities, next_m;
+        std::vector<Vec> anchors, displacements_m, velocities, next_m, accelerations;
     };
 
+    void make_room_for_views(const std::vector<ToolSet>& tools);
     void predict(const Frame* hands, Real dt) noexcept;
     void couple(Tool& tool, ToolUnknown& unknown, const Frame& hand, Real dt) const noexcept;
     void predict_bonded(std::size_t k) noexcept;
@@ -116,6 +91,8 @@ class TypedStepper final : public Stepper {
     void go_beyond(Real dt) noexcept;
     void owe(Real dt) noexcept;
     void find_results(Real dt) noexcept;
+    void list_held(std::size_t k) noexcept;
+    [[nodiscard]] System<S> system(Real dt) noexcept;
     StepResult refuse(std::uint32_t status) noexcept;
     [[nodiscard]] StepResult result(std::uint32_t status) const noexcept;
     [[nodiscard]] Real travel_m() const noexcept;
@@ -154,6 +131,13 @@ class TypedStepper final : public Stepper {
     Solution<S> solution_;
     std::uint32_t iterations_ = 0;
     std::vector<ToolResult> results_;
+
+    // For linear views, if asked for.
+    std::vector<ToolReach> reaches_;           ///< [tools]
+    std::vector<ToolImpedance<S>> impedance_;  ///< one or none
+    std::vector<HeldPart> held_;
+    Real step_dt_s_ = 0;       ///< of the last step; zero: refused, or none yet
+    std::uint64_t steps_ = 0;  ///< since reset()
 };
 
 template <class S>
@@ -191,13 +175,29 @@ TypedStepper<S>::TypedStepper(const Asset& asset, const SimulationConfig& config
         Tool& tool = tools_[k];
         for (std::uint32_t i = bonded.begin; i < bonded.end; ++i)
             tool.anchors.push_back(contact_.rest_frame(k).to_local(model_.rest_m[i]));
-        tool.displacements_m = tool.velocities = tool.next_m = tool.anchors;
+        tool.displacements_m = tool.velocities = tool.next_m = tool.accelerations = tool.anchors;
     }
+    if (config.with_local_model) make_room_for_views(renumbered(asset, config.tools, model_));
     reset();
 }
 
 template <class S>
+void TypedStepper<S>::make_room_for_views(const std::vector<ToolSet>& tools) {
+    std::size_t most = contact_.max_constraints();
+    for (std::size_t k = 0; k < tools.size(); ++k) {
+        reaches_.emplace_back(tools[k], model_.mean_edge_m);
+        most += tools_[k].anchors.size();
+    }
+    held_.reserve(most);
+    impedance_.emplace_back(model_, tools.size(), config_.with_torque ? 6 : 3);
+}
+
+template <class S>
 void TypedStepper<S>::reset() noexcept {
+    step_dt_s_ = 0;
+    steps_ = 0;
+    for (ToolImpedance<S>& impedance : impedance_)
+        impedance.reset();
     displacements_.fill_zero();
     velocities_.fill_zero();
     beyond_.fill_zero();
@@ -206,6 +206,7 @@ void TypedStepper<S>::reset() noexcept {
     elements_.reset();
     contact_.reset();
     preconditioner_.reset();
+    solver_.reset();
     for (std::size_t k = 0; k < tools_.size(); ++k) {
         Tool& tool = tools_[k];
         tool.position = tool.hand = contact_.rest_frame(k).position;
@@ -224,14 +225,7 @@ StepResult TypedStepper<S>::step(const Pose* poses, double dt_s) noexcept {
     for (std::size_t k = 0; k < hands_.size(); ++k) {
         if (!to_frame(poses[k], hands_[k])) return refuse(kStepBadInput);
     }
-    const System<S> system{model_,
-                           elements_,
-                           masses_,
-                           fields_,
-                           contact_.constraints(),
-                           unknowns_,
-                           dt_s,
-                           1 + model_.damping_per_s * dt_s};
+    const System<S> system = this->system(dt_s);
 
     // 1. Predict where inertia carries everything.
     predict(hands_.data(), dt_s);
@@ -246,7 +240,21 @@ StepResult TypedStepper<S>::step(const Pose* poses, double dt_s) noexcept {
     // 4. The reaction stands in the rows of the held nodes; take over the new state.
     accept(hands_.data(), dt_s, (status & kStepNotConverged) != 0);
     find_results(dt_s);
+    step_dt_s_ = dt_s;
+    ++steps_;
     return result(status);
+}
+
+template <class S>
+System<S> TypedStepper<S>::system(Real dt) noexcept {
+    return {model_,
+            elements_,
+            masses_,
+            fields_,
+            contact_.constraints(),
+            unknowns_,
+            dt,
+            1 + model_.damping_per_s * dt};
 }
 
 template <class S>
@@ -326,10 +334,14 @@ void TypedStepper<S>::linearise(const System<S>& system) noexcept {
 
 template <class S>
 std::uint32_t TypedStepper<S>::solve_with_contact(const System<S>& system) noexcept {
-    const bool trusts = trusts_preconditioner_ && preconditioner_.is_close(system.dt_s);
+    const bool close = preconditioner_.is_close(system.dt_s);
+    const bool trusts = close && trusts_preconditioner_;
     const Real drift = trusts ? kVelocityTolerance_m_per_s : kHardVelocityTolerance_m_per_s;
     const SolverLimits limits{config_.max_solver_iterations, config_.force_tolerance,
-                              std::min<Real>(drift, config_.force_tolerance), trusts};
+                              std::min<Real>(drift, config_.force_tolerance),
+                              !close   ? Belief::never
+                              : trusts ? Belief::from_the_start
+                                       : Belief::after_watching};
     solution_.displacement.nodes.fill_zero();
     solution_.from_zero = true;
     std::fill(solution_.displacement.tools.begin(), solution_.displacement.tools.end(), Vec::Zero());
@@ -423,7 +435,9 @@ void TypedStepper<S>::accept(const Frame* hands, Real dt, bool failed) noexcept 
         frames_[k] = tool.frame;
         for (std::size_t i = 0; i < tool.anchors.size(); ++i) {
             const Vec next = tool.next_m[i] + further;
-            tool.velocities[i] = (next - tool.displacements_m[i]) / dt;
+            const Vec velocity = (next - tool.displacements_m[i]) / dt;
+            tool.accelerations[i] = (velocity - tool.velocities[i]) / dt;
+            tool.velocities[i] = velocity;
             tool.displacements_m[i] = next;
             displacements_.set(model_.bonded[k].begin + i, next);
         }
@@ -471,6 +485,54 @@ void TypedStepper<S>::find_results(Real dt) noexcept {
     }
 }
 
+/// The nodes in a tool's hold with the forces on them, inertia and damping taken out.
+template <class S>
+void TypedStepper<S>::list_held(std::size_t k) noexcept {
+    held_.clear();
+    const Tool& tool = tools_[k];
+    const NodeReader positions(model_.rest_m, displacements_);
+    const Real dt2 = step_dt_s_ * step_dt_s_, damping = model_.damping_per_s;
+    const std::vector<Constraint>& constraints = contact_.constraints();
+    for (std::size_t c = 0; c < constraints.size(); ++c) {
+        const Constraint& constraint = constraints[c];
+        if (constraint.tool != k) continue;
+        const std::uint32_t node = constraint.node;
+        const Vec braking =
+            beyond_.get(node) / (beyond_dt_s_ * beyond_dt_s_) + damping * velocities_.get(node);
+        const Vec row = solution_.row_n[c] + model_.mass_kg[node] * braking;
+        const Vec place = positions(node);
+        held_.push_back({node,
+                         constraint.held,
+                         place - tool.position,
+                         reaches_[k].outward(tool.frame, place),
+                         force_on_tool(constraint, row),
+                         {}});
+    }
+    const Vec further = solution_.displacement.tools[k];
+    for (std::size_t i = 0; i < tool.anchors.size(); ++i) {
+        const auto node = static_cast<std::uint32_t>(model_.bonded[k].begin + i);
+        const Vec braking =
+            tool.accelerations[i] - further / dt2 + damping * (tool.velocities[i] - further / step_dt_s_);
+        const Vec force = solver_.residual().get(node) / dt2 + model_.mass_kg[node] * braking;
+        held_.push_back(
+            {node, Mat::Identity(), tool.frame.rotation * tool.anchors[i], Vec::Zero(), force, Mat::Zero()});
+    }
+}
+
+template <class S>
+bool TypedStepper<S>::local_model(std::size_t tool, LocalModel& out) noexcept {
+    if (impedance_.empty() || tool >= tools_.size() || !(step_dt_s_ > 0)) return false;
+    const NoDenormals no_denormals;
+    list_held(tool);
+    Impedance found;
+    impedance_[0].find(system(step_dt_s_), preconditioner_, static_cast<std::uint32_t>(tool), held_, found);
+    const Frame& frame = tools_[tool].frame;
+    out = view_of(frame, found);
+    reaches_[tool].describe(frame, held_, NodeReader(model_.rest_m, displacements_), out);
+    out.step = steps_;
+    return true;
+}
+
 template <class S>
 StepResult TypedStepper<S>::result(std::uint32_t status) const noexcept {
     StepResult result;
@@ -487,6 +549,7 @@ StepResult TypedStepper<S>::refuse(std::uint32_t status) noexcept {
         results_[k].tool_position_m = to_array(tools_[k].position);
     }
     iterations_ = 0;
+    step_dt_s_ = 0;
     return result(status);
 }
 

@@ -7,6 +7,7 @@
 #include "knead/formats/asset.h"
 #include "knead/formats/numerics.h"
 #include "knead/runtime/config.h"
+#include "knead/runtime/local_model.h"
 #include "knead/runtime/step_result.h"
 
 namespace knead::core {
@@ -27,6 +28,8 @@ class Stepper {
     virtual StepResult step(const Pose* poses, double dt_s) noexcept = 0;
     /// Of the last step.
     [[nodiscard]] virtual const ToolResult& tool(std::size_t index) const noexcept = 0;
+    /// As Simulation::local_model().
+    virtual bool local_model(std::size_t tool, LocalModel& out) noexcept = 0;
     virtual void reset() noexcept = 0;
 
     [[nodiscard]] virtual std::size_t tool_count() const noexcept = 0;

@@ -40,8 +40,8 @@ TEST(Choice_of_numerics, Changes_exactly_at_its_limits) {
         {1296, 1.001e4, 0.3, P::float64, C::factor, S::fixed16},
         {1296, 1e6, 0.3, P::float64, C::factor, S::fixed16},
         {1296, 1.001e6, 0.3, P::float64, C::factor, S::float32},
-        {1296, 1e7, 0.3, P::float64, C::factor, S::float32},
-        {1296, 1.001e7, 0.49, P::float64, C::factor, S::float64},
+        {1296, 1e9, 0.3, P::float64, C::factor, S::float32},
+        {1296, 1.001e9, 0.49, P::float64, C::factor, S::float64},
         {16000, 10, 0.3, P::float32, C::factor, S::fixed16},
         {16001, 10, 0.3, P::float32, C::laplacian, S::fixed16},
         {16001, 10, 0.449, P::float32, C::laplacian, S::fixed16},
@@ -113,7 +113,7 @@ TEST(Choice_of_numerics, Says_why_in_one_sentence) {
         "solved in float32 (stiff path), preconditioned by the factor of the rest state (few tetrahedra) "
         "kept "
         "in float32 (high contrast)");
-    const Numerics hard = choose_numerics(asset_of(20000, 1e8, 0.3));
+    const Numerics hard = choose_numerics(asset_of(20000, 1e10, 0.3));
     EXPECT_STREQ(to_string(hard.arithmetic), "float64");
     EXPECT_STREQ(to_string(hard.factor_storage), "float64");
     EXPECT_STREQ(to_string(hard.preconditioner), "sparse_inverse");

@@ -28,6 +28,8 @@ struct SimulationConfig {
     int max_solver_iterations = 500;  ///< of the conjugate gradients, per solve, > 0
     int max_contact_passes = 32;      ///< solves, with a changed touched set each, tried in one step, > 0
     bool with_torque = false;         ///< also find the torque on each tool
+    bool with_local_model = false;  ///< make room for Simulation::local_model(): 12 vectors of all nodes for
+                                    ///< each tool, 24 with torque
 
     /// Spring and damper between the pose that step() is given (the hand) and the tool in the scene, solved
     /// together with the object. Zero stiffness: no coupling, the tool is at the given pose.

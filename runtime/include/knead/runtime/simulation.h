@@ -9,6 +9,7 @@
 #include "knead/formats/result.h"
 #include "knead/runtime/config.h"
 #include "knead/runtime/export.h"
+#include "knead/runtime/local_model.h"
 #include "knead/runtime/pose.h"
 #include "knead/runtime/step_result.h"
 
@@ -40,6 +41,13 @@ class KNEAD_RUNTIME_API Simulation {
     StepResult step(const Pose* poses, double dt_s) noexcept;
     /// What the last step yielded for one tool.
     [[nodiscard]] const ToolResult& tool(std::size_t index) const noexcept;
+
+    /// What the object answers near where a tool stands after the last step. Changes nothing that steps
+    /// depend on. For the thread of the steps: no allocation, no lock; takes a few steps' time, more when
+    /// the tool has touched or let go of nodes (docs/simulation.md).
+    /// @return false, and `out` as it was: SimulationConfig::with_local_model is false, there is no such
+    /// tool, or no step since reset(), or the last one was refused (kStepBadInput, kStepNotFinite)
+    bool local_model(std::size_t tool, LocalModel& out) noexcept;
 
     /// Back to the rest state, at rest, tools at their rest poses. Takes as long as loading if steps of
     /// another dt than expected_dt_s came before.

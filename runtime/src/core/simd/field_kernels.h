@@ -10,6 +10,8 @@ namespace knead::core {
 template <class S>
 struct FieldKernels {
     S (*dot)(std::size_t n, const S* a, const S* b);
+    /// @return sum of weight * a * a
+    S (*weighted_square)(std::size_t n, const S* weight, const S* a);
     /// out = factor * a * b
     void (*multiply)(std::size_t n, const S* a, S factor, const S* b, S* out);
     /// out = a + factor * b

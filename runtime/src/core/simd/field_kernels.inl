@@ -18,6 +18,15 @@ S dot(std::size_t n, const S* a, const S* b) {
 }
 
 template <class S>
+S weighted_square(std::size_t n, const S* weight, const S* a) {
+    using V = Vector<S, 16>;
+    V total{};
+    for (std::size_t i = 0; i < n; i += kRun)
+        total += load<V>(weight + i) * load<V>(a + i) * load<V>(a + i);
+    return sum<16, S>(total);
+}
+
+template <class S>
 void multiply(std::size_t n, const S* a, S factor, const S* b, S* out) {
     using V = Vector<S, 16>;
     for (std::size_t i = 0; i < n; i += kRun)
@@ -53,7 +62,7 @@ S advance(std::size_t n, S alpha, const S* p, const S* q, const S* weight, S* d,
 
 template <class S>
 constexpr FieldKernels<S> field_kernels() {
-    return {dot<S>, multiply<S>, add_scaled<S>, scale<S>, advance<S>};
+    return {dot<S>, weighted_square<S>, multiply<S>, add_scaled<S>, scale<S>, advance<S>};
 }
 
 }  // namespace
