@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "Usage: haptic_loop ASSET\n");
         return 2;
     }
-    auto simulation = knead::Simulation::load(argv[1]);
+    const knead::HapticConfig config;
+    auto simulation = knead::Simulation::load(argv[1], knead::simulation_config(config));
     if (!simulation) {
         std::fprintf(stderr, "haptic_loop: error: %s\n", simulation.error().text().c_str());
         return 3;
@@ -27,7 +28,7 @@ int main(int argc, char** argv) {
     script.rest_s = 0.1;
     knead::ScriptedDevice device(knead::press_samples(script));
 
-    auto loop = knead::HapticLoop::create(device, simulation.value());
+    auto loop = knead::HapticLoop::create(device, simulation.value(), config);
     if (!loop) {
         std::fprintf(stderr, "haptic_loop: error: %s\n", loop.error().text().c_str());
         return 3;
@@ -35,10 +36,10 @@ int main(int argc, char** argv) {
     std::printf("  time s  depth mm   force N\n");
     std::uint64_t tick_count = 0;
     const auto run =
-        loop.value().run(device.samples().back().time_s, script.rate_hz, [&](const knead::HapticTick& tick) {
+        loop.value().run(device.samples().back().time_s, [&](const knead::HapticTick& tick) {
             if (++tick_count % 100 != 0) return;
             const double depth_mm = 1e3 * (script.start.position_m[2] - tick.step.tool_position_m[2]);
-            std::printf("%8.3f  %8.3f  %8.4f%s\n", tick.device.time_s, depth_mm, tick.step.force_n[2],
+            std::printf("%8.3f  %8.3f  %8.4f%s\n", tick.device.time_s, depth_mm, tick.device_force_n[2],
                         (tick.status & knead::kHapticSaturated) != 0 ? "  (the device's limit)" : "");
         });
     if (!run) {

@@ -8,6 +8,7 @@
 #include <new>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "knead/formats/version.h"
 #include "knead/runtime/simulation.h"
@@ -15,14 +16,17 @@
 /// A simulation and the text of what went wrong with it last.
 struct knead_simulation {
     knead::Simulation simulation;
-    const char* last_error = "";  ///< a literal: steps must not allocate
+    std::vector<knead::Pose> poses;  ///< [tools] of the step under way
+    const char* last_error = "";     ///< a literal: steps must not allocate
 };
 
 namespace {
 
 constexpr std::size_t kErrorBytes = 1024;
-constexpr std::size_t kFirstConfigBytes = offsetof(knead_config, tool_mass_kg) + sizeof(double);
-constexpr std::size_t kFirstResultBytes = offsetof(knead_step_result, touched_nodes) + sizeof(std::uint32_t);
+/// Of the first version of each struct: less was not filled in by its init function.
+constexpr std::size_t kFirstConfigBytes = sizeof(knead_config);
+constexpr std::size_t kFirstResultBytes = sizeof(knead_step_result);
+constexpr std::size_t kFirstModelBytes = sizeof(knead_local_model);
 
 thread_local char load_error[kErrorBytes] = "";
 
@@ -38,23 +42,87 @@ knead_error fail(knead_simulation& handle, const char* text) noexcept {
 
 knead::SimulationConfig to_cpp(const knead_config& config) {
     knead::SimulationConfig result;
-    result.tools = {config.tool};
+    if (config.tools != nullptr) result.tools.assign(config.tools, config.tools + config.tool_count);
+    result.expected_dt_s = config.expected_dt_s;
+    result.arithmetic = static_cast<knead::Arithmetic>(config.arithmetic);
     result.force_tolerance = config.force_tolerance;
     result.max_solver_iterations = config.max_solver_iterations;
     result.max_contact_passes = config.max_contact_passes;
+    result.with_torque = config.with_torque != 0;
     result.coupling_stiffness_n_per_m = config.coupling_stiffness_n_per_m;
     result.coupling_damping_n_s_per_m = config.coupling_damping_n_s_per_m;
     result.tool_mass_kg = config.tool_mass_kg;
-    if (config.struct_size >= offsetof(knead_config, expected_dt_s) + sizeof(double))
-        result.expected_dt_s = config.expected_dt_s;
+    result.with_local_model = config.with_local_model != 0;
     return result;
+}
+
+knead::Pose to_cpp(const knead_pose& pose) noexcept {
+    knead::Pose result;
+    std::copy_n(pose.position_m, 3, result.position_m.begin());
+    std::copy_n(pose.orientation_wxyz, 4, result.orientation_wxyz.begin());
+    return result;
+}
+
+knead_pose to_c(const knead::Pose& pose) noexcept {
+    knead_pose result;
+    std::copy_n(pose.position_m.begin(), 3, result.position_m);
+    std::copy_n(pose.orientation_wxyz.begin(), 4, result.orientation_wxyz);
+    return result;
+}
+
+/// Into the caller's struct, which may be of an older or newer version: what both know.
+template <class T>
+void give(const T& ours, std::size_t their_size, void* theirs) noexcept {
+    std::memcpy(theirs, &ours, std::min(their_size, sizeof(T)));
+}
+
+void give(const knead::StepResult& step, const knead::ToolResult& tool, std::size_t their_size,
+          void* theirs) noexcept {
+    knead_step_result result{};
+    result.struct_size = their_size;
+    std::copy_n(tool.force_n.begin(), 3, result.force_n);
+    std::copy_n(tool.torque_nm.begin(), 3, result.torque_nm);
+    std::copy_n(tool.tool_position_m.begin(), 3, result.tool_position_m);
+    result.touched_nodes = tool.touched_nodes;
+    result.status = step.status;
+    result.solver_iterations = step.solver_iterations;
+    give(result, their_size, theirs);
+}
+
+void give(const knead::LocalModel& model, std::size_t their_size, void* theirs) noexcept {
+    knead_local_model result{};
+    result.struct_size = their_size;
+    result.origin = to_c(model.origin);
+    std::copy_n(model.force_n.begin(), 3, result.force_n);
+    std::copy_n(model.torque_nm.begin(), 3, result.torque_nm);
+    std::copy_n(model.stiffness.begin(), 36, result.stiffness);
+    std::copy_n(model.damping.begin(), 36, result.damping);
+    std::copy_n(model.mass.begin(), 36, result.mass);
+    std::copy_n(model.normal.begin(), 3, result.normal);
+    result.radius_m = model.radius_m;
+    result.step = model.step;
+    result.touched_nodes = model.touched_nodes;
+    result.unilateral = model.unilateral ? 1 : 0;
+    give(result, their_size, theirs);
+}
+
+/// Whether the config can be read at all; what it says is checked when loading.
+const char* problem_of(const knead_config& config) noexcept {
+    if (config.struct_size < kFirstConfigBytes)
+        return "knead_simulation_load: config->struct_size is not set; call knead_config_init()";
+    if (config.tools == nullptr && config.tool_count != 0)
+        return "knead_simulation_load: config->tools is NULL, but tool_count is not 0";
+    if (config.arithmetic < KNEAD_ARITHMETIC_AUTOMATIC || config.arithmetic > KNEAD_ARITHMETIC_FLOAT64)
+        return "knead_simulation_load: config->arithmetic is none of KNEAD_ARITHMETIC_*";
+    return nullptr;
 }
 
 knead_error load(const char* asset_path, const knead_config& config, knead_simulation** out) {
     auto loaded = knead::Simulation::load(std::filesystem::u8path(asset_path), to_cpp(config));
     if (!loaded)
         return fail_load(static_cast<knead_error>(loaded.error().code), loaded.error().text().c_str());
-    *out = new knead_simulation{std::move(loaded).value()};
+    const std::size_t tools = loaded.value().tool_count();
+    *out = new knead_simulation{std::move(loaded).value(), std::vector<knead::Pose>(tools)};
     load_error[0] = '\0';
     return KNEAD_OK;
 }
@@ -71,20 +139,30 @@ void knead_config_init(knead_config* config) noexcept {
     if (config == nullptr) return;
     const knead::SimulationConfig defaults;
     config->struct_size = sizeof(knead_config);
-    config->tool = defaults.tools.front();
+    config->tools = nullptr;
+    config->tool_count = 0;
+    config->expected_dt_s = defaults.expected_dt_s;
     config->force_tolerance = defaults.force_tolerance;
     config->max_solver_iterations = defaults.max_solver_iterations;
     config->max_contact_passes = defaults.max_contact_passes;
+    config->arithmetic = static_cast<std::int32_t>(defaults.arithmetic);
+    config->with_torque = defaults.with_torque ? 1 : 0;
     config->coupling_stiffness_n_per_m = defaults.coupling_stiffness_n_per_m;
     config->coupling_damping_n_s_per_m = defaults.coupling_damping_n_s_per_m;
     config->tool_mass_kg = defaults.tool_mass_kg;
-    config->expected_dt_s = defaults.expected_dt_s;
+    config->with_local_model = defaults.with_local_model ? 1 : 0;
 }
 
 void knead_step_result_init(knead_step_result* result) noexcept {
     if (result == nullptr) return;
-    std::memset(result, 0, sizeof(knead_step_result));
+    *result = knead_step_result{};
     result->struct_size = sizeof(knead_step_result);
+}
+
+void knead_local_model_init(knead_local_model* model) noexcept {
+    if (model == nullptr) return;
+    *model = knead_local_model{};
+    model->struct_size = sizeof(knead_local_model);
 }
 
 knead_error knead_simulation_load(const char* asset_path, const knead_config* config,
@@ -97,11 +175,8 @@ knead_error knead_simulation_load(const char* asset_path, const knead_config* co
     knead_config used;
     knead_config_init(&used);
     if (config != nullptr) {
-        if (config->struct_size < kFirstConfigBytes) {
-            return fail_load(
-                KNEAD_ERROR_INVALID_ARGUMENT,
-                "knead_simulation_load: config->struct_size is not set; call knead_config_init()");
-        }
+        if (const char* problem = problem_of(*config); problem != nullptr)
+            return fail_load(KNEAD_ERROR_INVALID_ARGUMENT, problem);
         std::memcpy(&used, config, std::min(config->struct_size, sizeof(used)));
     }
     try {
@@ -129,15 +204,54 @@ knead_error knead_simulation_step(knead_simulation* simulation, const double pos
         return fail(*simulation,
                     "knead_simulation_step: result->struct_size is not set; call knead_step_result_init()");
     }
-    knead::Pose pose = simulation->simulation.tool_rest_pose();
+    knead::Simulation& object = simulation->simulation;
+    if (object.tool_count() != 1)
+        return fail(*simulation, "knead_simulation_step: several tools; call knead_simulation_step_tools()");
+    knead::Pose pose = object.tool_rest_pose();
     std::copy_n(position_m, 3, pose.position_m.begin());
     if (orientation_wxyz != nullptr) std::copy_n(orientation_wxyz, 4, pose.orientation_wxyz.begin());
-    const knead::StepResult step = simulation->simulation.step(pose, dt_s);
-    std::copy_n(step.force_n.begin(), 3, result->force_n);
-    std::copy_n(step.tool_position_m.begin(), 3, result->tool_position_m);
-    result->status = step.status;
-    result->solver_iterations = step.solver_iterations;
-    result->touched_nodes = step.touched_nodes;
+    const knead::StepResult step = object.step(pose, dt_s);
+    give(step, step, result->struct_size, result);
+    return KNEAD_OK;
+}
+
+knead_error knead_simulation_step_tools(knead_simulation* simulation, const knead_pose* poses, double dt_s,
+                                        knead_step_result* results) noexcept {
+    if (simulation == nullptr) return KNEAD_ERROR_INVALID_ARGUMENT;
+    if (poses == nullptr) return fail(*simulation, "knead_simulation_step_tools: poses is NULL");
+    if (results == nullptr) return fail(*simulation, "knead_simulation_step_tools: results is NULL");
+    const std::size_t size = results->struct_size;
+    if (size < kFirstResultBytes) {
+        return fail(*simulation,
+                    "knead_simulation_step_tools: results->struct_size is not set; call "
+                    "knead_step_result_init()");
+    }
+    knead::Simulation& object = simulation->simulation;
+    for (std::size_t k = 0; k < simulation->poses.size(); ++k)
+        simulation->poses[k] = to_cpp(poses[k]);
+    const knead::StepResult step = object.step(simulation->poses.data(), dt_s);
+    auto* bytes = reinterpret_cast<unsigned char*>(results);
+    for (std::size_t k = 0; k < object.tool_count(); ++k)
+        give(step, object.tool(k), size, bytes + k * size);
+    return KNEAD_OK;
+}
+
+knead_error knead_simulation_local_model(knead_simulation* simulation, size_t tool,
+                                         knead_local_model* model) noexcept {
+    if (simulation == nullptr) return KNEAD_ERROR_INVALID_ARGUMENT;
+    if (model == nullptr) return fail(*simulation, "knead_simulation_local_model: model is NULL");
+    if (model->struct_size < kFirstModelBytes) {
+        return fail(*simulation,
+                    "knead_simulation_local_model: model->struct_size is not set; call "
+                    "knead_local_model_init()");
+    }
+    if (tool >= simulation->simulation.tool_count())
+        return fail(*simulation, "knead_simulation_local_model: there is no such tool");
+    knead::LocalModel found;
+    if (!simulation->simulation.local_model(tool, found))
+        return fail(*simulation,
+                    "knead_simulation_local_model: no model: not asked for in the config, or no step yet");
+    give(found, model->struct_size, model);
     return KNEAD_OK;
 }
 
@@ -147,15 +261,16 @@ knead_error knead_simulation_reset(knead_simulation* simulation) noexcept {
     return KNEAD_OK;
 }
 
-knead_error knead_simulation_rest_pose(const knead_simulation* simulation, double position_m[3],
-                                       double orientation_wxyz[4]) noexcept {
-    if (simulation == nullptr || position_m == nullptr || orientation_wxyz == nullptr) {
+knead_error knead_simulation_rest_pose(const knead_simulation* simulation, size_t tool,
+                                       knead_pose* pose) noexcept {
+    if (simulation == nullptr || pose == nullptr || tool >= simulation->simulation.tool_count())
         return KNEAD_ERROR_INVALID_ARGUMENT;
-    }
-    const knead::Pose pose = simulation->simulation.tool_rest_pose();
-    std::copy_n(pose.position_m.begin(), 3, position_m);
-    std::copy_n(pose.orientation_wxyz.begin(), 4, orientation_wxyz);
+    *pose = to_c(simulation->simulation.tool_rest_pose(tool));
     return KNEAD_OK;
+}
+
+size_t knead_simulation_tool_count(const knead_simulation* simulation) noexcept {
+    return simulation == nullptr ? 0 : simulation->simulation.tool_count();
 }
 
 size_t knead_simulation_node_count(const knead_simulation* simulation) noexcept {
@@ -168,6 +283,12 @@ size_t knead_simulation_tetrahedron_count(const knead_simulation* simulation) no
 
 const double* knead_simulation_positions_m(const knead_simulation* simulation) noexcept {
     return simulation == nullptr ? nullptr : simulation->simulation.positions_m();
+}
+
+knead_error knead_simulation_velocities_m_per_s(const knead_simulation* simulation, double* out) noexcept {
+    if (simulation == nullptr || out == nullptr) return KNEAD_ERROR_INVALID_ARGUMENT;
+    simulation->simulation.velocities_m_per_s(out);
+    return KNEAD_OK;
 }
 
 const char* knead_last_error(const knead_simulation* simulation) noexcept {

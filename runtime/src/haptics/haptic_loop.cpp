@@ -1,117 +1,172 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "knead/haptics/haptic_loop.h"
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <exception>
+#include <limits>
+#include <new>
 #include <string>
-#include <thread>
+#include <utility>
 
-#include "haptics/quaternion.h"
+#include "haptics/loop_impl.h"
 
 namespace knead {
 namespace {
 
-constexpr double kSlowest_hz = 50;
-constexpr double kFastest_hz = 4000;
 constexpr double kUnitTolerance = 1e-3;
-
-Vec3 to_device(const HapticConfig& config, const Vec3& scene_force_n) noexcept {
-    Vec3 force = force_to_device(config.workspace, scene_force_n);
-    for (double& component : force)
-        component *= config.force_scale;
-    return force;
-}
-
-/// Shortens to the limit and keeps the direction: a clip per axis would bend it.
-void limit_norm(double max_force_n, Vec3& force, std::uint32_t& status) noexcept {
-    const double norm = std::hypot(force[0], force[1], force[2]);
-    if (!(norm > max_force_n) || std::isinf(norm)) return;
-    for (double& component : force)
-        component *= max_force_n / norm;
-    status |= kHapticSaturated;
-}
-
-void zero_if_not_finite(Vec3& force, std::uint32_t& status) noexcept {
-    if (std::isfinite(force[0]) && std::isfinite(force[1]) && std::isfinite(force[2])) return;
-    force = {};
-    status |= kHapticNotFinite;
-}
-
-bool unit(const QuaternionWxyz& q) {
-    const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    return std::abs(norm - 1) <= kUnitTolerance;
-}
+constexpr double kSlowest_hz = 500;
+constexpr double kSlowestSimulation_hz = 50;  ///< Simulation::step() takes at most 20 ms
+constexpr double kFastest_hz = 4000;
+constexpr double kLongestRun_s = 1e7;
 
 Error bad(const std::string& what) {
     return Error{ErrorCode::invalid_argument, what, "HapticLoop"};
 }
 
+/// What is wrong, or an empty text.
+std::string fault(const WorkspaceMap& map) {
+    if (!(map.scale > 0 && std::isfinite(map.scale))) return "workspace.scale must be finite and above 0";
+    double squares = 0;
+    for (const double part : map.rotation_wxyz)
+        squares += part * part;
+    if (!(std::abs(std::sqrt(squares) - 1) <= kUnitTolerance))
+        return "workspace.rotation_wxyz must be a unit quaternion";
+    for (const double offset : map.offset_m)
+        if (!std::isfinite(offset)) return "workspace.offset_m must be finite";
+    return {};
+}
+
+std::string fault(const CouplingConfig& coupling) {
+    const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+    const auto not_negative = [](double x) { return x >= 0 && std::isfinite(x); };
+    if (!positive(coupling.stiffness_n_per_m)) return "coupling.stiffness_n_per_m must be finite and above 0";
+    if (!not_negative(coupling.damping_n_s_per_m))
+        return "coupling.damping_n_s_per_m must be finite and not negative";
+    if (!positive(coupling.tool_mass_kg)) return "coupling.tool_mass_kg must be finite and above 0";
+    if (!not_negative(coupling.rotation_stiffness_nm_per_rad))
+        return "coupling.rotation_stiffness_nm_per_rad must be finite and not negative";
+    if (!not_negative(coupling.rotation_damping_nm_s_per_rad))
+        return "coupling.rotation_damping_nm_s_per_rad must be finite and not negative";
+    if (!positive(coupling.tool_inertia_kg_m2)) return "coupling.tool_inertia_kg_m2 must be finite and above 0";
+    return {};
+}
+
+std::string fault(const HapticConfig& config) {
+    if (std::string what = fault(config.workspace); !what.empty()) return what;
+    if (!(config.force_scale >= 0 && std::isfinite(config.force_scale)))
+        return "force_scale must be finite and not negative";
+    if (!(config.rate_hz >= kSlowest_hz && config.rate_hz <= kFastest_hz)) return "rate_hz must be 500 to 4000";
+    if (config.mode != HapticMode::synchronous && config.mode != HapticMode::two_rate)
+        return "mode is none of HapticMode";
+    if (config.rendering > LocalRendering::hold) return "rendering is none of LocalRendering";
+    if (!(config.simulation_rate_hz >= kSlowestSimulation_hz && config.simulation_rate_hz <= kFastest_hz))
+        return "simulation_rate_hz must be 50 to 4000";
+    if (!(config.correction_gain > 0 && config.correction_gain <= 1))
+        return "correction_gain must be above 0 and at most 1";
+    return fault(config.coupling);
+}
+
 }  // namespace
 
-HapticLoop::HapticLoop(Device& device, Simulation& simulation, const HapticConfig& config) noexcept
-    : device_(&device), simulation_(&simulation), config_(config) {}
+SimulationConfig simulation_config(const HapticConfig& config, SimulationConfig base) {
+    const bool synchronous = config.mode == HapticMode::synchronous;
+    const bool turns = config.coupling.rotation_stiffness_nm_per_rad > 0;
+    base.expected_dt_s = 1 / (synchronous ? config.rate_hz : config.simulation_rate_hz);
+    base.coupling_stiffness_n_per_m = config.coupling.stiffness_n_per_m;
+    base.coupling_damping_n_s_per_m = config.coupling.damping_n_s_per_m;
+    base.tool_mass_kg = config.coupling.tool_mass_kg;
+    base.with_torque = base.with_torque || turns;
+    base.with_local_model = base.with_local_model || turns || !synchronous;
+    return base;
+}
 
 Result<HapticLoop> HapticLoop::create(Device& device, Simulation& simulation, const HapticConfig& config) {
     if (simulation.tool_count() != 1)
         return bad("the simulation must have one tool, has " + std::to_string(simulation.tool_count()));
-    const WorkspaceMap& map = config.workspace;
-    if (!(map.scale > 0 && std::isfinite(map.scale)))
-        return bad("workspace.scale must be finite and above 0");
-    if (!unit(map.rotation_wxyz)) return bad("workspace.rotation_wxyz must be a unit quaternion");
-    for (const double offset : map.offset_m) {
-        if (!std::isfinite(offset)) return bad("workspace.offset_m must be finite");
-    }
-    if (!(config.force_scale >= 0 && std::isfinite(config.force_scale))) {
-        return bad("force_scale must be finite and not negative");
-    }
-    if (!(config.max_force_n > 0 && std::isfinite(config.max_force_n))) {
-        return bad("max_force_n must be finite and above 0");
-    }
-    return HapticLoop(device, simulation, config);
+    if (const std::string what = fault(config); !what.empty()) return bad(what);
+    Result<SafetyChain> safety = SafetyChain::create(config.safety);
+    if (!safety) return safety.error();
+    auto* impl = new (std::nothrow) Impl(device, simulation, config, safety.value());
+    if (impl == nullptr) return Error{ErrorCode::out_of_memory, "no memory for the loop", "HapticLoop"};
+    return HapticLoop(std::unique_ptr<Impl>(impl));
 }
+
+HapticLoop::HapticLoop(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+HapticLoop::HapticLoop(HapticLoop&&) noexcept = default;
+HapticLoop& HapticLoop::operator=(HapticLoop&&) noexcept = default;
+HapticLoop::~HapticLoop() = default;
 
 HapticTick HapticLoop::tick(double dt_s) noexcept {
-    HapticTick tick;
-    tick.device = device_->read();
-    tick.hand = to_scene(config_.workspace, tick.device.pose);
-    tick.step = simulation_->step(tick.hand, dt_s);
-    tick.device_force_n = to_device(config_, tick.step.force_n);
-    limit_norm(config_.max_force_n, tick.device_force_n, tick.status);
-    zero_if_not_finite(tick.device_force_n, tick.status);
-    device_->write(tick.device_force_n, {});
-    return tick;
+    return impl_->haptic.tick(dt_s);
 }
 
-Result<RunStatistics> HapticLoop::run(double seconds, double rate_hz,
-                                      const std::function<void(const HapticTick&)>& observe) {
-    if (!(seconds >= 0 && std::isfinite(seconds))) return bad("seconds must be finite and not negative");
-    if (!(rate_hz >= kSlowest_hz && rate_hz <= kFastest_hz)) return bad("rate_hz must be 50 to 4000");
-    using Clock = std::chrono::steady_clock;
-    const auto period =
-        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate_hz));
-    const auto wanted = static_cast<std::uint64_t>(std::llround(seconds * rate_hz));
-    RunStatistics statistics;
-    auto start = Clock::now();
-    while (statistics.ticks < wanted) {
-        const HapticTick tick = this->tick(1 / rate_hz);
-        if (observe) observe(tick);
-        const auto end = Clock::now();
-        ++statistics.ticks;
-        statistics.step_status |= tick.step.status;
-        statistics.haptic_status |= tick.status;
-        statistics.longest_tick_s =
-            std::max(statistics.longest_tick_s, std::chrono::duration<double>(end - start).count());
-        start += period;
-        if (end > start) {
-            ++statistics.misses;
-            start = end;
-        } else {
-            std::this_thread::sleep_until(start);
-        }
+SimulationResult HapticLoop::simulate(double dt_s) noexcept {
+    return impl_->simulation_side.simulate(dt_s);
+}
+
+void HapticLoop::publish(const SimulationResult& result) noexcept {
+    impl_->exchange.results.write(result);
+}
+
+Result<RunStatistics> HapticLoop::run(double seconds, const std::function<void(const HapticTick&)>& observe,
+                                      const std::function<void(const SimulationResult&)>& observe_result) {
+    if (!(seconds >= 0 && seconds <= kLongestRun_s)) return bad("seconds must be 0 to 1e7");
+    if (impl_->running.exchange(true)) return bad("the loop runs already");
+    impl_->stop_ticks = false;
+    if (!impl_->start_helpers(observe_result)) {
+        impl_->running = false;
+        return Error{ErrorCode::out_of_memory, "the system gives no thread", "HapticLoop"};
     }
-    device_->write({}, {});
-    return statistics;
+    struct End {  // also when the observer throws
+        Impl& impl;
+        ~End() {
+            impl.stop_helpers();
+            impl.running = false;
+        }
+    };
+    {
+        const End end{*impl_};
+        impl_->run_ticks(static_cast<std::uint64_t>(std::llround(seconds * impl_->config.rate_hz)), observe);
+    }
+    return statistics();
+}
+
+Status HapticLoop::start(std::function<void(const HapticTick&)> observe,
+                         std::function<void(const SimulationResult&)> observe_result) {
+    if (impl_->running.exchange(true)) return bad("the loop runs already");
+    impl_->stop();  // the thread of a run that ended by itself
+    impl_->stop_ticks = false;
+    const auto no_thread = [&]() -> Status {
+        impl_->running = false;
+        return Error{ErrorCode::out_of_memory, "the system gives no thread", "HapticLoop"};
+    };
+    if (!impl_->start_helpers(std::move(observe_result))) return no_thread();
+    try {
+        impl_->haptic_thread = std::thread([impl = impl_.get(), seen = std::move(observe)] {
+            impl->run_ticks(std::numeric_limits<std::uint64_t>::max(), seen);
+            impl->stop_helpers();
+            impl->running = false;
+        });
+    } catch (const std::exception&) {
+        impl_->stop_helpers();
+        return no_thread();
+    }
+    return Unit{};
+}
+
+void HapticLoop::stop() noexcept {
+    if (!impl_) return;
+    impl_->stop();
+    // A run() on another thread lets go by itself.
+    if (!impl_->running) impl_->haptic.let_go();
+}
+
+bool HapticLoop::running() const noexcept {
+    return impl_ && impl_->running;
+}
+
+RunStatistics HapticLoop::statistics() const noexcept {
+    return impl_->recorder.statistics();
 }
 
 }  // namespace knead

@@ -53,21 +53,29 @@ std::vector<DeviceState> press_samples(const PressScript& script) {
 
 ScriptedDevice::ScriptedDevice(std::vector<DeviceState> samples) : samples_(std::move(samples)) {
     forces_.reserve(samples_.size());
+    torques_.reserve(samples_.size());
+    if (samples_.size() > 1) period_s_ = samples_.back().time_s - samples_[samples_.size() - 2].time_s;
+    rewind();
 }
 
 DeviceState ScriptedDevice::read() noexcept {
-    if (samples_.empty()) return {};
-    if (finished()) return samples_.back();
-    return samples_[next_++];
+    if (!finished()) return samples_[next_++];
+    resting_.time_s += period_s_;
+    return resting_;
 }
 
-void ScriptedDevice::write(const Vec3& force_n, const Vec3& /*torque_n_m*/) noexcept {
-    if (forces_.size() < forces_.capacity()) forces_.push_back(force_n);
+void ScriptedDevice::write(const Vec3& force_n, const Vec3& torque_n_m) noexcept {
+    if (forces_.size() == samples_.size()) return;
+    forces_.push_back(force_n);
+    torques_.push_back(torque_n_m);
 }
 
 void ScriptedDevice::rewind() noexcept {
     next_ = 0;
     forces_.clear();
+    torques_.clear();
+    resting_ = samples_.empty() ? DeviceState{} : samples_.back();
+    resting_.velocity_m_per_s = {};
 }
 
 }  // namespace knead

@@ -29,13 +29,15 @@ struct PressScript {
 /// A device that needs no hardware: replays samples, one per read(), and records what is written.
 ///
 /// The same samples give the same poses, bit for bit, whatever the clock says. read() and write() do not
-/// allocate: room for one force per sample is set aside in the constructor, later ones are not recorded.
+/// allocate: room for one force and torque per sample is set aside in the constructor, later ones are not
+/// recorded.
 class KNEAD_HAPTICS_API ScriptedDevice final : public Device {
   public:
     /// @param samples recorded from a device, or press_samples(); an empty script stays at the origin
     explicit ScriptedDevice(std::vector<DeviceState> samples);
 
-    /// The next sample; after the last one, the last one again.
+    /// The next sample. After the last one: the same pose at rest, and a time that goes on in steps of the
+    /// last two samples. A hand that rests is not a device that stopped.
     [[nodiscard]] DeviceState read() noexcept override;
     void write(const Vec3& force_n, const Vec3& torque_n_m) noexcept override;
 
@@ -45,11 +47,15 @@ class KNEAD_HAPTICS_API ScriptedDevice final : public Device {
     [[nodiscard]] bool finished() const noexcept { return next_ >= samples_.size(); }
     [[nodiscard]] const std::vector<DeviceState>& samples() const noexcept { return samples_; }
     [[nodiscard]] const std::vector<Vec3>& forces_n() const noexcept { return forces_; }
+    [[nodiscard]] const std::vector<Vec3>& torques_nm() const noexcept { return torques_; }
 
   private:
     std::vector<DeviceState> samples_;
     std::size_t next_ = 0;
     std::vector<Vec3> forces_;
+    std::vector<Vec3> torques_;
+    DeviceState resting_;  ///< after the last sample
+    double period_s_ = 1e-3;
 };
 
 }  // namespace knead
