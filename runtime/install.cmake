@@ -7,10 +7,12 @@ install(TARGETS knead_runtime knead_haptics EXPORT kneadRuntimeTargets
 install(DIRECTORY include/knead DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT runtime
         FILES_MATCHING PATTERN "*.h")
 # Those headers of the formats that the runtime's own include: plain data and the error type.
-foreach(header IN ITEMS asset.h result.h tet_mesh.h version.h)
+foreach(header IN ITEMS asset.h result.h session_log.h tet_mesh.h version.h)
   install(FILES ${PROJECT_SOURCE_DIR}/formats/include/knead/formats/${header}
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/knead/formats COMPONENT runtime)
 endforeach()
+
+install(FILES data/devices.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/knead COMPONENT runtime)
 
 install(EXPORT kneadRuntimeTargets NAMESPACE knead:: DESTINATION ${KNEAD_PACKAGE_DIR} COMPONENT runtime)
 configure_package_config_file(cmake/kneadConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/kneadConfig.cmake

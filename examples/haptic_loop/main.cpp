@@ -35,13 +35,12 @@ int main(int argc, char** argv) {
     }
     std::printf("  time s  depth mm   force N\n");
     std::uint64_t tick_count = 0;
-    const auto run =
-        loop.value().run(device.samples().back().time_s, [&](const knead::HapticTick& tick) {
-            if (++tick_count % 100 != 0) return;
-            const double depth_mm = 1e3 * (script.start.position_m[2] - tick.step.tool_position_m[2]);
-            std::printf("%8.3f  %8.3f  %8.4f%s\n", tick.device.time_s, depth_mm, tick.device_force_n[2],
-                        (tick.status & knead::kHapticSaturated) != 0 ? "  (the device's limit)" : "");
-        });
+    const auto run = loop.value().run(device.samples().back().time_s, [&](const knead::HapticTick& tick) {
+        if (++tick_count % 100 != 0) return;
+        const double depth_mm = 1e3 * (script.start.position_m[2] - tick.step.tool_position_m[2]);
+        std::printf("%8.3f  %8.3f  %8.4f%s\n", tick.device.time_s, depth_mm, tick.device_force_n[2],
+                    (tick.status & knead::kHapticSaturated) != 0 ? "  (the device's limit)" : "");
+    });
     if (!run) {
         std::fprintf(stderr, "haptic_loop: error: %s\n", run.error().text().c_str());
         return 3;

@@ -25,10 +25,11 @@ bool within(double a, double b, const Tolerance& tolerance) {
 }
 
 bool same_element(const Value& a, const Value& b, std::size_t i, const Tolerance& tolerance) {
-    if (is_float(a)) return within(number_at(a, i), number_at(b, i), tolerance);
     if (a.type == ScalarType::text) return a.text(i) == b.text(i);
-    return std::memcmp(a.bytes.data() + i * a.element_bytes, b.bytes.data() + i * a.element_bytes,
-                       a.element_bytes) == 0;
+    if (std::memcmp(a.bytes.data() + i * a.element_bytes, b.bytes.data() + i * a.element_bytes,
+                    a.element_bytes) == 0)
+        return true;  // the same NaN, too
+    return is_float(a) && within(number_at(a, i), number_at(b, i), tolerance);
 }
 
 /// " at [4, 2]" for a flat index; nothing for a scalar.

@@ -71,6 +71,8 @@ Result<FileKind> validate_file(const std::filesystem::path& file, const ReadLimi
             return kind_or_error(read_clustering(file, limits));
         case FileKind::overlap:
             return kind_or_error(read_overlap(file, limits));
+        case FileKind::session:
+            return kind_or_error(read_session_log(file, limits));
         case FileKind::asset:
             break;
     }

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kMaxDepth = 8;
 constexpr std::uint64_t kMaxNodesPerName = 16;  ///< a tool is the largest: seven nodes
-constexpr std::array<const char*, 5> kKindNames{"tet_mesh", "material", "clustering", "overlap", "asset"};
+constexpr std::array<const char*, 6> kKindNames{"tet_mesh", "material", "clustering",
+                                                "overlap",  "asset",    "session"};
 
 /// One group of the file with everything below it, first described, then loaded.
 class Tree {

@@ -26,7 +26,8 @@ struct LoadedFile {
 /// Header and provenance only.
 [[nodiscard]] LoadedFile load_header(const std::filesystem::path& file, const ReadLimits& limits);
 
-inline constexpr std::initializer_list<FileKind> kEveryKind = {
-    FileKind::tet_mesh, FileKind::material, FileKind::clustering, FileKind::overlap, FileKind::asset};
+inline constexpr std::initializer_list<FileKind> kEveryKind = {FileKind::tet_mesh,   FileKind::material,
+                                                               FileKind::clustering, FileKind::overlap,
+                                                               FileKind::asset,      FileKind::session};
 
 }  // namespace knead

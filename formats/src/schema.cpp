@@ -135,6 +135,7 @@ void check_shape(FileKind kind, Schema& schema) {
     schema.group("/knead");
     if (kind == FileKind::overlap) return check_overlap_shape(schema);
     if (kind == FileKind::asset) return check_asset_shape(schema);
+    if (kind == FileKind::session) return check_session_shape(schema);
     const std::uint64_t tetrahedra = check_tet_mesh_shape(schema);
     if (kind != FileKind::tet_mesh) check_material_shape(schema, tetrahedra);
     if (kind == FileKind::clustering) check_clustering_shape(schema, tetrahedra);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "knead/formats/session_log.h"
 #include "payload.h"
 
 namespace knead {
@@ -92,6 +93,8 @@ void check_overlap_shape(Schema& schema);
 [[nodiscard]] OverlapMatrix take_overlap(Schema& schema);
 void check_asset_shape(Schema& schema);
 [[nodiscard]] Asset take_asset(Schema& schema);
+void check_session_shape(Schema& schema);
+[[nodiscard]] SessionLog take_session(Schema& schema);
 void check_provenance(Schema& schema);
 [[nodiscard]] Provenance take_provenance(Schema& schema);
 [[nodiscard]] std::vector<Asset::Request> take_requests(Schema& schema);

@@ -32,6 +32,7 @@ constexpr std::uint32_t kLargestSize = 40;
 constexpr std::uint32_t kLargestCompared = 12;
 constexpr std::uint32_t kLeaveOutCells = 6;
 constexpr int kLeaveOutSteps = 2000;
+constexpr int kHapticTicks = 20'000;
 
 void say(const std::string& text) {
     std::fputs(text.c_str(), stdout);
@@ -63,6 +64,10 @@ void run_speed(const Options& options, Report& report) {
                                          options.quick ? kQuickSteps : kLeaveOutSteps);
     for (const LeaveOutRow& row : report.leave_out)
         say(leave_out_line(row));
+    say("\nThe haptic part of a cycle, two-rate, without the simulation's step\n" + haptic_cycle_heading());
+    report.haptic_cycle = measure_haptic_cycle(kQuickSizes[0], options.quick ? kQuickSteps : kHapticTicks);
+    for (const HapticCycleRow& row : report.haptic_cycle)
+        say(haptic_cycle_line(row));
 }
 
 void run_hard_cases(const Options& options, Report& report) {

@@ -64,6 +64,9 @@ TEST(QuickBench, Writes_its_schema_with_finite_numbers_and_right_forces) {
     for (const json& row : report["hard_cases"])
         EXPECT_EQ(row["pass"], true) << row["name"];
     EXPECT_GE(report["leave_out"].size(), 3U);
+    ASSERT_EQ(report["haptic_cycle"].size(), 4U);
+    for (const json& row : report["haptic_cycle"])
+        EXPECT_GT(row["us_p50"], 0) << row["rendering"];
 }
 
 }  // namespace

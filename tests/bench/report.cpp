@@ -88,6 +88,11 @@ Json json(const LeaveOutRow& r) {
             {"us_p50", r.us.p50}};
 }
 
+Json json(const HapticCycleRow& r) {
+    return {{"rendering", r.rendering}, {"ticks", r.ticks},   {"us_min", r.us.min},
+            {"us_p50", r.us.p50},       {"us_p99", r.us.p99}, {"us_p999", r.us.p999}};
+}
+
 template <class Row>
 Json json_rows(const std::vector<Row>& rows) {
     Json array = Json::array();
@@ -104,7 +109,8 @@ std::string to_json(const Report& report) {
                            {"command", report.command},
                            {"steps", json_rows(report.steps)},
                            {"hard_cases", json_rows(report.hard_cases)},
-                           {"leave_out", json_rows(report.leave_out)}};
+                           {"leave_out", json_rows(report.leave_out)},
+                           {"haptic_cycle", json_rows(report.haptic_cycle)}};
     return document.dump(2) + "\n";
 }
 
@@ -168,6 +174,16 @@ std::string leave_out_heading() {
 std::string leave_out_line(const LeaveOutRow& r) {
     return fmt::format("{:<24} {:>11} {:>12} {:>8.1f} {:>8.1f}\n", r.scene, r.file_bytes,
                        r.simulation_bytes / static_cast<std::int64_t>(kKibibyte), r.us.min, r.us.p50);
+}
+
+std::string haptic_cycle_heading() {
+    return fmt::format("{:<24} {:>8} {:>8} {:>8} {:>8}\n", "rendering", "us min", "us p50", "us p99",
+                       "us p99.9");
+}
+
+std::string haptic_cycle_line(const HapticCycleRow& r) {
+    return fmt::format("{:<24} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f}\n", r.rendering, r.us.min, r.us.p50,
+                       r.us.p99, r.us.p999);
 }
 
 }  // namespace knead::bench

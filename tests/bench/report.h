@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/haptic_cycle.h"
 #include "bench/hard_cases.h"
 #include "bench/leave_out.h"
 #include "bench/machine.h"
@@ -19,6 +20,7 @@ struct Report {
     std::vector<SpeedRow> steps;
     std::vector<HardCaseRow> hard_cases;
     std::vector<LeaveOutRow> leave_out;
+    std::vector<HapticCycleRow> haptic_cycle;
 };
 
 /// The report as "knead-bench/1" (docs/benchmark.md). Numbers that are not finite become null.
@@ -34,5 +36,7 @@ struct Report {
 [[nodiscard]] std::string hard_case_line(const HardCaseRow& row);
 [[nodiscard]] std::string leave_out_heading();
 [[nodiscard]] std::string leave_out_line(const LeaveOutRow& row);
+[[nodiscard]] std::string haptic_cycle_heading();
+[[nodiscard]] std::string haptic_cycle_line(const HapticCycleRow& row);
 
 }  // namespace knead::bench

@@ -100,9 +100,10 @@ ExportMesh read_for_export(const fs::path& file) {
         case FileKind::asset:
             return export_mesh(value_or_throw(read_asset(file)));
         case FileKind::overlap:
+        case FileKind::session:
             break;
     }
-    fail_input(file.string() + ": an overlap has no mesh to export");
+    fail_input(file.string() + ": an overlap or a session has no mesh to export");
 }
 
 ExitCode run_export(const Options& options, ToolContext& context) {

@@ -45,7 +45,7 @@ std::string ids(const std::vector<std::uint32_t>& vertices) {
 /// The tetrahedron of each vertex of the skin.
 std::vector<NearTetrahedron> carriers(const Skin& skin, const CarrierMesh& mesh,
                                       const EmbeddingRequest& request) {
-    const TetrahedronTree tree(mesh.nodes_m, mesh.tetrahedra);
+    const NearestTetrahedra tree(mesh.nodes_m, mesh.tetrahedra);
     const double max_distance_m =
         request.max_distance_m > 0 ? request.max_distance_m : kDefaultEmbeddingDistance * tree.size_m();
     std::vector<NearTetrahedron> carriers;

@@ -30,14 +30,14 @@ double distance_to_triangle(const Vec& p, const Vec& a, const Vec& b, const Vec&
 
 }  // namespace
 
-struct TetrahedronTree::Search {
+struct NearestTetrahedra::Search {
     Vec point;
     double slack_m = 0;
     double best_m = std::numeric_limits<double>::infinity();
     std::vector<NearTetrahedron> found;
 };
 
-TetrahedronTree::TetrahedronTree(const std::vector<Point>& nodes_m,
+NearestTetrahedra::NearestTetrahedra(const std::vector<Point>& nodes_m,
                                  const std::vector<Tetrahedron>& tetrahedra)
     : nodes_m_(nodes_m), tetrahedra_(tetrahedra), order_(tetrahedra.size()) {
     std::iota(order_.begin(), order_.end(), 0U);
@@ -48,13 +48,13 @@ TetrahedronTree::TetrahedronTree(const std::vector<Point>& nodes_m,
     grow(0, static_cast<std::uint32_t>(tetrahedra.size()), centres);
 }
 
-Vec TetrahedronTree::corner(std::uint32_t tetrahedron, int k) const {
+Vec NearestTetrahedra::corner(std::uint32_t tetrahedron, int k) const {
     const Point& node = nodes_m_[tetrahedra_[tetrahedron][static_cast<std::size_t>(k)]];
     return {node[0], node[1], node[2]};
 }
 
 /// Halves the tetrahedra across the longest side of their box until few are left.
-std::uint32_t TetrahedronTree::grow(std::uint32_t begin, std::uint32_t end, const std::vector<Vec>& centres) {
+std::uint32_t NearestTetrahedra::grow(std::uint32_t begin, std::uint32_t end, const std::vector<Vec>& centres) {
     const auto index = static_cast<std::uint32_t>(branches_.size());
     Branch branch;
     branch.begin = begin;
@@ -78,7 +78,7 @@ std::uint32_t TetrahedronTree::grow(std::uint32_t begin, std::uint32_t end, cons
     return index;
 }
 
-NearTetrahedron TetrahedronTree::locate(std::uint32_t tetrahedron, const Vec& point) const {
+NearTetrahedron NearestTetrahedra::locate(std::uint32_t tetrahedron, const Vec& point) const {
     const std::array<Vec, 4> corners{corner(tetrahedron, 0), corner(tetrahedron, 1), corner(tetrahedron, 2),
                                      corner(tetrahedron, 3)};
     const auto& [a, b, c, d] = corners;
@@ -101,7 +101,7 @@ NearTetrahedron TetrahedronTree::locate(std::uint32_t tetrahedron, const Vec& po
     return near;
 }
 
-void TetrahedronTree::descend(std::uint32_t index, Search& search) const {
+void NearestTetrahedra::descend(std::uint32_t index, Search& search) const {
     const Branch& branch = branches_[index];
     if (branch.box.exteriorDistance(search.point) > search.best_m + search.slack_m) return;
     if (branch.second == 0) {
@@ -118,7 +118,7 @@ void TetrahedronTree::descend(std::uint32_t index, Search& search) const {
     descend(second_is_nearer ? first : branch.second, search);
 }
 
-std::vector<NearTetrahedron> TetrahedronTree::nearest(const Point& point, double slack_m) const {
+std::vector<NearTetrahedron> NearestTetrahedra::nearest(const Point& point, double slack_m) const {
     Search search;
     search.point = Vec(point[0], point[1], point[2]);
     search.slack_m = slack_m;

@@ -18,9 +18,9 @@ struct NearTetrahedron {
 };
 
 /// Finds the tetrahedra nearest to a point, by a tree of boxes. Keeps references to its arguments.
-class TetrahedronTree {
+class NearestTetrahedra {
   public:
-    TetrahedronTree(const std::vector<Point>& nodes_m, const std::vector<Tetrahedron>& tetrahedra);
+    NearestTetrahedra(const std::vector<Point>& nodes_m, const std::vector<Tetrahedron>& tetrahedra);
 
     /// Every tetrahedron at most `slack_m` farther from `point` than the nearest one, by index.
     [[nodiscard]] std::vector<NearTetrahedron> nearest(const Point& point, double slack_m) const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "common/error.h"
 
@@ -62,24 +63,55 @@ ElasticBody::ElasticBody(const TetMesh& mesh, const Material& material) {
     rounding_noise_n_ *= kRoundedOperations * std::numeric_limits<double>::epsilon();
 }
 
+ElasticBody::ElasticBody(const TetMesh& mesh, const Material& material,
+                         const std::vector<ElasticityTensor>& tensors)
+    : ElasticBody(mesh, material) {
+    if (tensors.size() != elements_.size())
+        fail_input(std::to_string(tensors.size()) + " elasticity tensors for " +
+                   std::to_string(elements_.size()) + " tetrahedra");
+    for (std::size_t t = 0; t < tensors.size(); ++t)
+        if (!tensors[t].allFinite())
+            fail_input("elasticity tensor of tetrahedron " + std::to_string(t) + " is not finite");
+    tensors_ = tensors;
+    const double extent_m = rest_.lpNorm<Eigen::Infinity>();
+    rounding_noise_n_ = 0;
+    for (std::size_t t = 0; t < tensors.size(); ++t) {
+        const double gradient = elements_[t].shape_gradients.norm();
+        rounding_noise_n_ = std::max(rounding_noise_n_, tensors[t].norm() * elements_[t].volume_m3 *
+                                                            gradient * std::max(1.0, gradient * extent_m));
+    }
+    rounding_noise_n_ *= kRoundedOperations * std::numeric_limits<double>::epsilon();
+}
+
+Eigen::Matrix3d ElasticBody::deformation_gradient(const Element& element,
+                                                  const Eigen::VectorXd& positions_m) const {
+    return edges(element.nodes, positions_m) * element.shape_gradients.rightCols<3>().transpose();
+}
+
 CorotationalPoint ElasticBody::evaluate(const Element& element, const Eigen::VectorXd& positions_m) const {
-    const Eigen::Matrix3d deformation_gradient =
-        edges(element.nodes, positions_m) * element.shape_gradients.rightCols<3>().transpose();
-    return {deformation_gradient, element.lame};
+    return {deformation_gradient(element, positions_m), element.lame};
+}
+
+TensorPoint ElasticBody::evaluate_tensor(std::size_t tetrahedron, const Eigen::VectorXd& positions_m) const {
+    return {deformation_gradient(elements_[tetrahedron], positions_m), tensors_[tetrahedron]};
 }
 
 double ElasticBody::energy_j(const Eigen::VectorXd& positions_m) const {
     double sum = 0;
-    for (const Element& element : elements_)
-        sum += element.volume_m3 * evaluate(element, positions_m).energy_density_j_per_m3();
+    for (std::size_t t = 0; t < elements_.size(); ++t)
+        sum += elements_[t].volume_m3 * (tensors_.empty()
+                                             ? evaluate(elements_[t], positions_m).energy_density_j_per_m3()
+                                             : evaluate_tensor(t, positions_m).energy_density_j_per_m3());
     return sum;
 }
 
 Eigen::VectorXd ElasticBody::gradient_n(const Eigen::VectorXd& positions_m) const {
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(rest_.size());
-    for (const Element& element : elements_) {
-        const Eigen::Matrix<double, 3, 4> forces =
-            element.volume_m3 * evaluate(element, positions_m).stress_pa() * element.shape_gradients;
+    for (std::size_t t = 0; t < elements_.size(); ++t) {
+        const Element& element = elements_[t];
+        const Eigen::Matrix3d stress_pa = tensors_.empty() ? evaluate(element, positions_m).stress_pa()
+                                                           : evaluate_tensor(t, positions_m).stress_pa();
+        const Eigen::Matrix<double, 3, 4> forces = element.volume_m3 * stress_pa * element.shape_gradients;
         for (int a = 0; a < 4; ++a)
             gradient.segment<3>(first_unknown(element.nodes[a])) += forces.col(a);
     }
@@ -94,7 +126,8 @@ Matrix12d ElasticBody::stiffness_n_per_m(std::size_t tetrahedron, const Eigen::V
         for (int k = 0; k < 3; ++k)
             for (int i = 0; i < 3; ++i)
                 gradient_of_positions(i + 3 * k, 3 * a + i) = element.shape_gradients(k, a);
-    const Matrix9d tangent = evaluate(element, positions_m).tangent_pa(curvature);
+    const Matrix9d tangent = tensors_.empty() ? evaluate(element, positions_m).tangent_pa(curvature)
+                                              : evaluate_tensor(tetrahedron, positions_m).frozen_tangent_pa();
     return element.volume_m3 * gradient_of_positions.transpose() * tangent * gradient_of_positions;
 }
 

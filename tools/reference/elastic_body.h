@@ -9,6 +9,7 @@
 #include "knead/formats/material.h"
 #include "knead/formats/tet_mesh.h"
 #include "reference/corotational.h"
+#include "reference/tensor_point.h"
 
 namespace knead::tools {
 
@@ -27,6 +28,10 @@ class ElasticBody {
   public:
     /// @throws ToolError(bad_input) when the mesh or the material breaks an invariant of its type
     ElasticBody(const TetMesh& mesh, const Material& material);
+    /// Any linear elasticity in each tetrahedron, with the densities of `material`; the rest of it is unused.
+    /// Only Curvature::rotation_frozen is to be had of such a body; the others fall back to it.
+    /// @param tensors [tetrahedra] symmetric, positive semidefinite
+    ElasticBody(const TetMesh& mesh, const Material& material, const std::vector<ElasticityTensor>& tensors);
 
     [[nodiscard]] std::size_t node_count() const { return static_cast<std::size_t>(rest_.size()) / 3; }
     [[nodiscard]] std::size_t tetrahedron_count() const { return elements_.size(); }
@@ -55,11 +60,16 @@ class ElasticBody {
         double volume_m3;
         LameParameters lame;
     };
+    [[nodiscard]] Eigen::Matrix3d deformation_gradient(const Element& element,
+                                                       const Eigen::VectorXd& positions_m) const;
     [[nodiscard]] CorotationalPoint evaluate(const Element& element,
                                              const Eigen::VectorXd& positions_m) const;
+    [[nodiscard]] TensorPoint evaluate_tensor(std::size_t tetrahedron,
+                                              const Eigen::VectorXd& positions_m) const;
 
     Eigen::VectorXd rest_, mass_;
     std::vector<Element> elements_;
+    std::vector<ElasticityTensor> tensors_;  // [tetrahedra], or empty: isotropic
     double rounding_noise_n_ = 0;
     double largest_stiffness_n_per_m_ = 0;
 };

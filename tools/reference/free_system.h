@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/elastic_body.h"
+#include "reference/tied_node.h"
 
 namespace knead::tools {
 
@@ -24,8 +25,10 @@ struct NodeBlock {
 /// @thread-safety one thread at a time; different objects are independent
 class FreeSystem {
   public:
-    /// @param is_prescribed [3 nodes] true where the unknown is given
-    FreeSystem(const ElasticBody& body, const std::vector<bool>& is_prescribed);
+    /// @param is_prescribed [3 nodes] true where the unknown is given, by a tie too
+    /// @param ties without contradiction to `is_prescribed` (spread_with_ties)
+    FreeSystem(const ElasticBody& body, const std::vector<bool>& is_prescribed,
+               std::vector<TiedNode> ties = {});
     FreeSystem(FreeSystem&&) noexcept;
     FreeSystem& operator=(FreeSystem&&) noexcept;
     ~FreeSystem();
@@ -35,13 +38,26 @@ class FreeSystem {
     /// @return false when it is not positive definite
     bool factorise(const Eigen::VectorXd& positions_m, Curvature curvature,
                    const Eigen::VectorXd& diagonal_n_per_m, const std::vector<NodeBlock>& blocks = {});
-    /// Solves with the last factor for the free part of `rhs`; zero at the prescribed unknowns.
+    /// Whether the last factorisation succeeded.
+    [[nodiscard]] bool has_factor() const;
+    /// Solves with the last factor for the free part of `rhs`, to which tied nodes hand what is at them on;
+    /// zero at the prescribed unknowns, and at the tied ones what their masters make of the result.
     /// @param rhs [3 nodes]
     [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
     /// Column 3 k + i: the displacements under a unit force along axis i of nodes[k].
     [[nodiscard]] Eigen::MatrixXd unit_force_responses(const std::vector<std::uint32_t>& nodes) const;
 
+    /// Derivative to the free unknowns of what has this derivative to all: a tied node's share is its
+    /// masters'; what is left at the tied unknowns belongs to what carries them.
+    [[nodiscard]] Eigen::VectorXd reduced(const Eigen::VectorXd& gradient) const;
+    /// What of `positions_m` is given: the position where prescribed; where tied, what is left of it without
+    /// the masters' share.
+    [[nodiscard]] Eigen::VectorXd given(const Eigen::VectorXd& positions_m) const;
+    /// Puts the given unknowns to `target_m` (as of given()), the free ones as they are in `positions_m`.
+    void put_given(const Eigen::VectorXd& target_m, Eigen::VectorXd& positions_m) const;
+
     [[nodiscard]] const std::vector<bool>& is_prescribed() const;
+    [[nodiscard]] const std::vector<TiedNode>& ties() const;
     [[nodiscard]] std::size_t unknown_count() const;
 
   private:
@@ -52,8 +68,11 @@ class FreeSystem {
 /// The system of the set of prescribed unknowns last asked for.
 class KeptSystem {
   public:
-    [[nodiscard]] FreeSystem& of(const ElasticBody& body, const std::vector<bool>& is_prescribed) {
-        if (!system_ || system_->is_prescribed() != is_prescribed) system_.emplace(body, is_prescribed);
+    [[nodiscard]] FreeSystem& of(const ElasticBody& body, const std::vector<bool>& is_prescribed,
+                                 const std::vector<TiedNode>& ties = {}) {
+        if (!system_ || system_->is_prescribed() != is_prescribed || !system_->ties().empty() ||
+            !ties.empty())
+            system_.emplace(body, is_prescribed, ties);
         return *system_;
     }
 

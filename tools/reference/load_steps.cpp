@@ -20,7 +20,7 @@ StaticSolution equilibrium(const Objective& objective, FreeSystem& system, const
                            const Eigen::VectorXd& target_m, const NewtonLimits& limits,
                            Eigen::VectorXd& positions_m) {
     if (limits.load_steps < 1) fail_input(fmt::format("load steps: {} is not at least 1", limits.load_steps));
-    const Eigen::VectorXd start_m = positions_m;
+    const Eigen::VectorXd start_m = system.given(positions_m);
     const double largest_step = 1.0 / limits.load_steps;
     StaticSolution solution;
     solution.load_steps = 0;
@@ -32,7 +32,8 @@ StaticSolution equilibrium(const Objective& objective, FreeSystem& system, const
         const Eigen::VectorXd goal = next < 1 ? (start_m + next * (target_m - start_m)).eval() : target_m;
         outcome = {};
         if (follow_prescribed(objective, system, goal, trial))
-            outcome = minimise(objective, system, limits.relative_residual, limits.max_iterations, trial);
+            outcome = minimise(objective, system, limits.relative_residual, limits.max_iterations, trial,
+                               FirstFactor::as_it_is);
         solution.iterations += outcome.iterations + 1;
         if (outcome.converged) {
             positions_m = trial;
@@ -51,7 +52,9 @@ StaticSolution equilibrium(const Objective& objective, FreeSystem& system, const
                             outcome.residual_target_n, system.unknown_count(), motion.nodes.size()));
     }
     solution.positions_m = to_points(positions_m);
-    solution.reactions_n = reactions(motion, objective.gradient_n(positions_m));
+    const Eigen::VectorXd holding_n = objective.gradient_n(positions_m);
+    solution.reactions_n = reactions(motion, holding_n);
+    solution.tied_reactions_n = tied_reactions(motion, holding_n);
     solution.energy_j = objective.body->energy_j(positions_m);
     solution.residual_n = outcome.residual_n;
     solution.force_scale_n = outcome.force_scale_n;

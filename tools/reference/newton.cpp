@@ -14,6 +14,8 @@ constexpr double kSmallestStep = 1e-12;
 // Promised decreases below this share of the objective drown in the rounding of its sum over the tetrahedra:
 // there the residual decides instead.
 constexpr double kUnseenDecrease = 1e-9;
+// A factor that still brings the residual below this share of it is kept: a solve costs a tenth of a factor.
+constexpr double kKeepFactor = 0.2;
 
 /// Norms of the gradient over the free and over the prescribed unknowns.
 struct SplitNorm {
@@ -46,11 +48,13 @@ bool factorise(const Objective& objective, FreeSystem& system, const Eigen::Vect
 }
 
 /// Goes along `direction` until the objective has fallen enough; updates positions and gradient.
-bool line_search(const Objective& objective, const std::vector<bool>& is_prescribed,
-                 const Eigen::VectorXd& direction, Eigen::VectorXd& positions_m, Eigen::VectorXd& gradient) {
+bool line_search(const Objective& objective, const FreeSystem& system, const Eigen::VectorXd& direction,
+                 Eigen::VectorXd& positions_m, Eigen::VectorXd& gradient) {
+    const std::vector<bool>& is_prescribed = system.is_prescribed();
     const double start_j = objective.value_j(positions_m);
-    const double slope_j = free_dot(gradient, direction, is_prescribed);
-    const double residual_n = split_norm(gradient, is_prescribed).free_n;
+    const Eigen::VectorXd reduced = system.reduced(gradient);
+    const double slope_j = free_dot(reduced, direction, is_prescribed);
+    const double residual_n = split_norm(reduced, is_prescribed).free_n;
     for (double step = 1; step >= kSmallestStep; step /= 2) {
         const Eigen::VectorXd trial = positions_m + step * direction;
         const double value_j = objective.value_j(trial);
@@ -58,7 +62,8 @@ bool line_search(const Objective& objective, const std::vector<bool>& is_prescri
         const bool unseen = -slope_j <= kUnseenDecrease * std::abs(start_j);
         if (!std::isfinite(value_j) || (!falls && !unseen)) continue;
         Eigen::VectorXd trial_gradient = objective.gradient_n(trial);
-        if (unseen && !(split_norm(trial_gradient, is_prescribed).free_n < residual_n)) continue;
+        if (unseen && !(split_norm(system.reduced(trial_gradient), is_prescribed).free_n < residual_n))
+            continue;
         positions_m = trial;
         gradient = std::move(trial_gradient);
         return true;
@@ -67,9 +72,9 @@ bool line_search(const Objective& objective, const std::vector<bool>& is_prescri
 }
 
 /// Fills the norms of `outcome` and says whether they are small enough.
-void judge(const Objective& objective, const std::vector<bool>& is_prescribed, double relative_residual,
+void judge(const Objective& objective, const FreeSystem& system, double relative_residual,
            const Eigen::VectorXd& positions_m, const Eigen::VectorXd& gradient, NewtonOutcome& outcome) {
-    const SplitNorm norm = split_norm(gradient, is_prescribed);
+    const SplitNorm norm = split_norm(system.reduced(gradient), system.is_prescribed());
     outcome.residual_n = norm.free_n;
     outcome.force_scale_n = norm.prescribed_n;
     if (objective.weight_n_per_m.size() > 0) {
@@ -122,9 +127,9 @@ double Objective::rounding_noise_n() const {
 
 bool follow_prescribed(const Objective& objective, FreeSystem& system, const Eigen::VectorXd& target_m,
                        Eigen::VectorXd& positions_m) {
-    Eigen::VectorXd move = Eigen::VectorXd::Zero(positions_m.size());
-    for (Eigen::Index k = 0; k < move.size(); ++k)
-        if (system.is_prescribed()[static_cast<std::size_t>(k)]) move[k] = target_m[k] - positions_m[k];
+    Eigen::VectorXd move = positions_m;
+    system.put_given(target_m, move);
+    move -= positions_m;
     if (move.isZero(0)) return true;
     Curvature used{};
     if (!factorise(objective, system, positions_m, used)) return false;
@@ -132,26 +137,29 @@ bool follow_prescribed(const Objective& objective, FreeSystem& system, const Eig
         objective.gradient_n(positions_m) + stiffness_times(*objective.body, positions_m, used, move);
     Eigen::VectorXd moved = positions_m + move + system.solve(-force);
     if (!moved.allFinite()) return false;
-    for (Eigen::Index k = 0; k < move.size(); ++k)
-        if (system.is_prescribed()[static_cast<std::size_t>(k)]) moved[k] = target_m[k];
+    system.put_given(target_m, moved);
     positions_m = std::move(moved);
     return true;
 }
 
 NewtonOutcome minimise(const Objective& objective, FreeSystem& system, double relative_residual,
-                       int max_iterations, Eigen::VectorXd& positions_m) {
+                       int max_iterations, Eigen::VectorXd& positions_m, FirstFactor first) {
     NewtonOutcome outcome;
     Eigen::VectorXd gradient = objective.gradient_n(positions_m);
-    judge(objective, system.is_prescribed(), relative_residual, positions_m, gradient, outcome);
+    judge(objective, system, relative_residual, positions_m, gradient, outcome);
+    bool factor_serves = first == FirstFactor::as_it_is && system.has_factor();
     while (!outcome.converged && outcome.iterations < max_iterations) {
         Curvature used{};
-        if (!factorise(objective, system, positions_m, used)) return outcome;
+        const bool fresh = !factor_serves;
+        if (fresh && !factorise(objective, system, positions_m, used)) return outcome;
         const Eigen::VectorXd direction = system.solve(-gradient);
         ++outcome.iterations;
-        if (!direction.allFinite() ||
-            !line_search(objective, system.is_prescribed(), direction, positions_m, gradient))
-            return outcome;
-        judge(objective, system.is_prescribed(), relative_residual, positions_m, gradient, outcome);
+        const double before_n = outcome.residual_n;
+        const bool went =
+            direction.allFinite() && line_search(objective, system, direction, positions_m, gradient);
+        if (!went && fresh) return outcome;
+        if (went) judge(objective, system, relative_residual, positions_m, gradient, outcome);
+        factor_serves = went && first == FirstFactor::as_it_is && outcome.residual_n < kKeepFactor * before_n;
     }
     return outcome;
 }

@@ -43,12 +43,19 @@ struct NewtonOutcome {
 [[nodiscard]] bool follow_prescribed(const Objective& objective, FreeSystem& system,
                                      const Eigen::VectorXd& target_m, Eigen::VectorXd& positions_m);
 
+/// Whether the factor that a FreeSystem has may serve the first iterations.
+enum class FirstFactor {
+    anew,     ///< plain Newton: a factor for each iteration
+    as_it_is  ///< a factor is kept, from before too, for as long as the residual falls fast with it
+};
+
 /// Newton's method with a backtracking line search on the objective.
 ///
 /// Exact second derivative when it is positive definite, else the per-element projection of it. Converged
 /// when the residual is at most `relative_residual` times the force scale (the larger of the reactions at the
 /// prescribed unknowns and the weights' forces), or has reached the rounding noise of the forces.
 [[nodiscard]] NewtonOutcome minimise(const Objective& objective, FreeSystem& system, double relative_residual,
-                                     int max_iterations, Eigen::VectorXd& positions_m);
+                                     int max_iterations, Eigen::VectorXd& positions_m,
+                                     FirstFactor first = FirstFactor::anew);
 
 }  // namespace knead::tools

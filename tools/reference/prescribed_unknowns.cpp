@@ -20,11 +20,39 @@ void check_sizes(const PrescribedMotion& motion) {
             fmt::format("prescribed motion: {} axes for {} nodes", motion.axes.size(), motion.nodes.size()));
 }
 
+/// Marks a tied node's unknowns as given, by what its masters do not make of its position.
+void add_tie(const TiedNode& tie, const Eigen::VectorXd& rest_m, PrescribedUnknowns& result) {
+    if (3 * std::size_t{tie.node} >= result.is_prescribed.size())
+        fail_input(fmt::format("tied node {} of {} does not exist", tie.node, rest_m.size() / 3));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (result.is_prescribed[3 * std::size_t{tie.node} + axis])
+            fail_input(fmt::format("tied node {} is prescribed or tied twice", tie.node));
+        result.is_prescribed[3 * std::size_t{tie.node} + axis] = true;
+        const auto unknown = first_unknown(tie.node) + static_cast<Eigen::Index>(axis);
+        double given_m = rest_m[unknown] + tie.displacement_m[axis];
+        for (const auto& [master, weight] : tie.masters) {
+            if (3 * std::size_t{master} >= result.is_prescribed.size() || !std::isfinite(weight))
+                fail_input(fmt::format("tied node {}: its master {} does not exist or has no weight",
+                                       tie.node, master));
+            given_m -= weight * rest_m[first_unknown(master) + static_cast<Eigen::Index>(axis)];
+        }
+        if (!std::isfinite(given_m))
+            fail_input(fmt::format("tied node {}: displacement is not finite", tie.node));
+        result.target_m[unknown] = given_m;
+    }
+}
+
 }  // namespace
 
 PrescribedUnknowns spread(const PrescribedMotion& motion, const Eigen::VectorXd& rest_m) {
+    if (!motion.ties.empty()) fail_input("tied nodes are for static problems without contact");
+    return spread_with_ties(motion, rest_m);
+}
+
+PrescribedUnknowns spread_with_ties(const PrescribedMotion& motion, const Eigen::VectorXd& rest_m) {
     check_sizes(motion);
-    PrescribedUnknowns result{std::vector<bool>(static_cast<std::size_t>(rest_m.size())), rest_m};
+    PrescribedUnknowns result{std::vector<bool>(static_cast<std::size_t>(rest_m.size())), rest_m,
+                              motion.ties};
     for (std::size_t k = 0; k < motion.nodes.size(); ++k) {
         const std::size_t node = motion.nodes[k];
         const unsigned axes = motion.axes.empty() ? unsigned{kAllAxes} : unsigned{motion.axes[k]};
@@ -44,6 +72,13 @@ PrescribedUnknowns spread(const PrescribedMotion& motion, const Eigen::VectorXd&
             result.target_m[static_cast<Eigen::Index>(3 * node + axis)] += displacement;
         }
     }
+    for (const TiedNode& tie : motion.ties)
+        add_tie(tie, rest_m, result);
+    for (const TiedNode& tie : motion.ties)
+        for (const auto& [master, weight] : tie.masters)
+            for (const TiedNode& other : motion.ties)
+                if (other.node == master)
+                    fail_input(fmt::format("tied node {} is a master of tied node {}", master, tie.node));
     return result;
 }
 
@@ -71,6 +106,15 @@ std::vector<Point> reactions(const PrescribedMotion& motion, const Eigen::Vector
     result.reserve(motion.nodes.size());
     for (const std::uint32_t node : motion.nodes) {
         const Eigen::Index x = first_unknown(node);
+        result.push_back({-holding_n[x], -holding_n[x + 1], -holding_n[x + 2]});
+    }
+    return result;
+}
+
+std::vector<Point> tied_reactions(const PrescribedMotion& motion, const Eigen::VectorXd& holding_n) {
+    std::vector<Point> result;
+    for (const TiedNode& tie : motion.ties) {
+        const Eigen::Index x = first_unknown(tie.node);
         result.push_back({-holding_n[x], -holding_n[x + 1], -holding_n[x + 2]});
     }
     return result;

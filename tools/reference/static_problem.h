@@ -7,6 +7,8 @@
 
 #include "knead/formats/material.h"
 #include "knead/formats/tet_mesh.h"
+#include "reference/elasticity_tensor.h"
+#include "reference/tied_node.h"
 
 namespace knead::tools {
 
@@ -22,6 +24,7 @@ struct PrescribedMotion {
     std::vector<std::uint32_t> nodes;
     std::vector<Point> displacement_m;  ///< [nodes] from the rest position
     std::vector<std::uint8_t> axes;     ///< [nodes] bits of Axes, or empty
+    std::vector<TiedNode> ties{};       ///< StaticProblem only; others refuse them
 };
 
 /// An equilibrium, or a step of a motion.
@@ -29,6 +32,9 @@ struct StaticSolution {
     std::vector<Point> positions_m;  ///< [mesh nodes]
     /// [prescribed nodes] force with which the object pushes on whatever holds the node, newtons.
     std::vector<Point> reactions_n;
+    /// [tied nodes] the same at each tied node, from its own tetrahedra alone. Work on the tool when its
+    /// motion changes the displacements of the tied nodes is this force times the change.
+    std::vector<Point> tied_reactions_n;
     double energy_j = 0;       ///< elastic energy
     int iterations = 0;        ///< linear solves, those of the load steps included
     int load_steps = 1;        ///< 1: the whole motion in one go
@@ -60,6 +66,9 @@ class StaticProblem {
   public:
     /// @throws ToolError(bad_input) when the mesh or the material breaks an invariant of its type
     StaticProblem(const TetMesh& mesh, const Material& material);
+    /// Any linear elasticity in each tetrahedron (ElasticBody). The iteration then converges more slowly.
+    StaticProblem(const TetMesh& mesh, const Material& material,
+                  const std::vector<ElasticityTensor>& tensors);
     StaticProblem(StaticProblem&&) noexcept;
     StaticProblem& operator=(StaticProblem&&) noexcept;
     ~StaticProblem();

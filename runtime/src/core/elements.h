@@ -33,6 +33,11 @@ class Elements {
     }
 
     [[nodiscard]] Quat rotation(std::size_t element) const noexcept;
+    /// Where the w of its rotation stands in rotations(); x, y, z follow at distances of rotation_stride().
+    [[nodiscard]] std::uint32_t rotation_place(std::size_t element) const noexcept {
+        return rotation_at_[element];
+    }
+    [[nodiscard]] std::size_t rotation_stride() const noexcept { return kernels_.width; }
 
     /// For save and restore: w, x, y, z of every tetrahedron and of the lanes without one.
     [[nodiscard]] AlignedArray<S>& rotations() noexcept { return rotations_; }

@@ -13,69 +13,56 @@ namespace knead::core {
 template <class S>
 class NodeRotations {
   public:
-    explicit NodeRotations(const Model& model);
+    NodeRotations(const Model& model, const Elements<S>& elements, const Kernels& kernels);
 
     void reset() noexcept;
 
     /// Takes one of `shares` shares (at most 64) of the nodes anew, the next one with each call.
+    /// @param elements the ones of the constructor
     void update(const Elements<S>& elements, std::uint32_t shares) noexcept;
 
-    /// out = R^T v: into the rest state's frame. Packed x, y, z.
-    template <class T>
-    void turn_back(const NodeField<S>& v, T* out) const noexcept;
+    /// out = R^T v: into the rest state's frame. Packed x, y, z, of packed_size(free nodes) numbers.
+    void turn_back(const NodeField<S>& v, float* out) const noexcept {
+        kernels_.turn_back_to_float(view(), v.data(), out);
+    }
+    void turn_back(const NodeField<S>& v, double* out) const noexcept {
+        kernels_.turn_back_to_double(view(), v.data(), out);
+    }
     /// out = R v.
-    template <class T>
-    void turn(const T* v, NodeField<S>& out) const noexcept;
+    void turn(const float* v, NodeField<S>& out) const noexcept {
+        kernels_.turn_float(view(), v, out.data());
+    }
+    void turn(const double* v, NodeField<S>& out) const noexcept {
+        kernels_.turn_double(view(), v, out.data());
+    }
 
     /// The same between fields. @param out may be v
-    void turn_back(const NodeField<S>& v, NodeField<S>& out) const noexcept;
-    void turn(const NodeField<S>& v, NodeField<S>& out) const noexcept;
+    void turn_back(const NodeField<S>& v, NodeField<S>& out) const noexcept {
+        kernels_.turn_back(view(), v.data(), out.data());
+    }
+    void turn(const NodeField<S>& v, NodeField<S>& out) const noexcept {
+        kernels_.turn(view(), v.data(), out.data());
+    }
+
+    /// x, y, z of all nodes, and what the kernels read and write behind them.
+    [[nodiscard]] static constexpr std::size_t packed_size(std::size_t nodes) { return 3 * (nodes + 4) + 4; }
 
     /// Root mean square over the nodes, as last updated.
     [[nodiscard]] Real mean_angle_rad() const noexcept;
     [[nodiscard]] Mat rotation(std::size_t node) const noexcept;
 
   private:
-    struct Neighbour {
-        std::uint32_t element = 0;
-        float weight = 0;
-    };
-    /// @return its squared angle
-    Real update_node(const Elements<S>& elements, std::size_t node) noexcept;
+    [[nodiscard]] NodeTurns<S> view() const noexcept;
+    [[nodiscard]] std::size_t lane_of(std::size_t node) const noexcept;
+    [[nodiscard]] std::size_t diagonal_of(std::size_t node) const noexcept;
 
-    std::vector<std::uint32_t> begin_;  ///< [free nodes + 1]
-    std::vector<Neighbour> neighbours_;
-    std::vector<std::array<S, 9>> matrices_;  ///< [free nodes] row-major
+    const RotationKernels<S>& kernels_;
+    std::size_t count_ = 0, blocks_ = 0;
+    AlignedArray<std::int32_t> tets_;
+    AlignedArray<S> weights_;
+    mutable AlignedArray<S> diagonals_;
     std::uint32_t next_share_ = 0;
     std::array<Real, 64> squared_angles_{};  ///< [shares] sum over the share's nodes
 };
-
-template <class S>
-template <class T>
-void NodeRotations<S>::turn_back(const NodeField<S>& v, T* out) const noexcept {
-    const S* in = v.data();
-    for (const std::array<S, 9>& r : matrices_) {
-        const S x = in[0], y = in[1], z = in[2];
-        out[0] = static_cast<T>(r[0] * x + r[3] * y + r[6] * z);
-        out[1] = static_cast<T>(r[1] * x + r[4] * y + r[7] * z);
-        out[2] = static_cast<T>(r[2] * x + r[5] * y + r[8] * z);
-        in += 4;
-        out += 3;
-    }
-}
-
-template <class S>
-template <class T>
-void NodeRotations<S>::turn(const T* v, NodeField<S>& out) const noexcept {
-    S* to = out.data();
-    for (const std::array<S, 9>& r : matrices_) {
-        const S x = static_cast<S>(v[0]), y = static_cast<S>(v[1]), z = static_cast<S>(v[2]);
-        to[0] = r[0] * x + r[1] * y + r[2] * z;
-        to[1] = r[3] * x + r[4] * y + r[5] * z;
-        to[2] = r[6] * x + r[7] * y + r[8] * z;
-        to += 4;
-        v += 3;
-    }
-}
 
 }  // namespace knead::core

@@ -14,12 +14,14 @@ namespace knead {
 
 /// Counts durations in bins that are a thirty-second of a power of two wide: 3 % from 32 ns on, exact below.
 ///
-/// One thread adds; any thread may look at the same time. Adding is a load and a store: no lock, no allocation.
+/// One thread adds; any thread may look at the same time. Adding is a load and a store: no lock, no
+/// allocation.
 class DurationHistogram {
   public:
     void add(std::uint64_t ns) noexcept {
         raise(bins_[bin(ns)]);
-        if (ns > longest_ns_.load(std::memory_order_relaxed)) longest_ns_.store(ns, std::memory_order_relaxed);
+        if (ns > longest_ns_.load(std::memory_order_relaxed))
+            longest_ns_.store(ns, std::memory_order_relaxed);
     }
 
     void clear() noexcept {

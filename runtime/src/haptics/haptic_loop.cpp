@@ -47,7 +47,8 @@ std::string fault(const CouplingConfig& coupling) {
         return "coupling.rotation_stiffness_nm_per_rad must be finite and not negative";
     if (!not_negative(coupling.rotation_damping_nm_s_per_rad))
         return "coupling.rotation_damping_nm_s_per_rad must be finite and not negative";
-    if (!positive(coupling.tool_inertia_kg_m2)) return "coupling.tool_inertia_kg_m2 must be finite and above 0";
+    if (!positive(coupling.tool_inertia_kg_m2))
+        return "coupling.tool_inertia_kg_m2 must be finite and above 0";
     return {};
 }
 
@@ -55,7 +56,8 @@ std::string fault(const HapticConfig& config) {
     if (std::string what = fault(config.workspace); !what.empty()) return what;
     if (!(config.force_scale >= 0 && std::isfinite(config.force_scale)))
         return "force_scale must be finite and not negative";
-    if (!(config.rate_hz >= kSlowest_hz && config.rate_hz <= kFastest_hz)) return "rate_hz must be 500 to 4000";
+    if (!(config.rate_hz >= kSlowest_hz && config.rate_hz <= kFastest_hz))
+        return "rate_hz must be 500 to 4000";
     if (config.mode != HapticMode::synchronous && config.mode != HapticMode::two_rate)
         return "mode is none of HapticMode";
     if (config.rendering > LocalRendering::hold) return "rendering is none of LocalRendering";

@@ -15,10 +15,12 @@ constexpr double kFarthest_m = 1e3;      ///< from the device's origin: beyond, 
 // What Simulation::step() takes.
 constexpr double kShortestStep_s = 0.25e-3;
 constexpr double kLongestStep_s = 20e-3;
-/// Synchronous, with rotations: the object's impedance is found this often, and when the touched nodes change.
+/// Synchronous, with rotations: the object's impedance is found this often, and when the touched nodes
+/// change.
 constexpr int kTicksPerModel = 16;
-constexpr double kSmoothing_s = 4e-3;   ///< of the hand's velocity: a count of an encoder in 1 ms is 50 mm/s
-/// Times latency and period: hands accelerate. With 1, 11 of 12 set-ups keep their range; with 2 some oscillate.
+constexpr double kSmoothing_s = 4e-3;  ///< of the hand's velocity: a count of an encoder in 1 ms is 50 mm/s
+/// Times latency and period: hands accelerate. With 1, 11 of 12 set-ups keep their range; with 2 some
+/// oscillate.
 constexpr double kAhead = 1.5;
 constexpr double kLongestAhead_s = 50e-3;
 constexpr std::uint32_t kFailed = kStepNotFinite | kStepBadInput;
@@ -170,8 +172,9 @@ void HapticSide::take_result(double dt_s, std::uint32_t& status) noexcept {
     if (step_failed_) status |= kHapticStepFailed;
 }
 
-/// Where the hand will be when the result of this pose is about to be replaced: touch that begins until then is known
-/// in time. Found only after the hand is in the object, contact would give energy that nobody put in.
+/// Where the hand will be when the result of this pose is about to be replaced: touch that begins until then
+/// is known in time. Found only after the hand is in the object, contact would give energy that nobody put
+/// in.
 Pose HapticSide::expected_hand(double dt_s) noexcept {
     time_s_ += dt_s;
     tick_times_s_[tick_ % kTimes] = time_s_;
@@ -180,7 +183,8 @@ Pose HapticSide::expected_hand(double dt_s) noexcept {
     const double ahead_s =
         std::min(kAhead * (result_age_s_ + 1 / config_.simulation_rate_hz), kLongestAhead_s);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double velocity = tick_ == 1 ? 0 : (hand_.position_m[axis] - last_hand_.position_m[axis]) / dt_s;
+        const double velocity =
+            tick_ == 1 ? 0 : (hand_.position_m[axis] - last_hand_.position_m[axis]) / dt_s;
         hand_velocity_m_per_s_[axis] += share * (velocity - hand_velocity_m_per_s_[axis]);
         if (config_.rendering == LocalRendering::reduced_object)
             expected.position_m[axis] += ahead_s * hand_velocity_m_per_s_[axis];

@@ -71,10 +71,10 @@ class HapticSide {
     LinearView view_;
     double model_age_s_ = std::numeric_limits<double>::infinity();
     bool step_failed_ = false;
-    double time_s_ = 0;               ///< sum of the periods
-    double result_age_s_ = 0;         ///< of the newest result's pose, when it arrived
+    double time_s_ = 0;        ///< sum of the periods
+    double result_age_s_ = 0;  ///< of the newest result's pose, when it arrived
     Pose last_hand_;
-    Vec3 hand_velocity_m_per_s_{};    ///< smoothed
+    Vec3 hand_velocity_m_per_s_{};               ///< smoothed
     std::array<double, kTimes> tick_times_s_{};  ///< ring by number
 };
 

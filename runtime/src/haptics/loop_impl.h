@@ -15,7 +15,8 @@ namespace knead {
 
 /// The two sides, and the threads that drive them.
 struct HapticLoop::Impl {
-    Impl(Device& device, Simulation& simulation, const HapticConfig& loop_config, const SafetyChain& safety) noexcept
+    Impl(Device& device, Simulation& simulation, const HapticConfig& loop_config,
+         const SafetyChain& safety) noexcept
         : config(loop_config),
           haptic(device, simulation, loop_config, safety, exchange),
           simulation_side(simulation, exchange) {}
@@ -41,7 +42,7 @@ struct HapticLoop::Impl {
 
     MachineWatch watch;
     std::thread haptic_thread, simulation_thread;
-    std::atomic<bool> running{false};          ///< between the start and the end of a run
+    std::atomic<bool> running{false};  ///< between the start and the end of a run
     std::atomic<bool> stop_ticks{false};
     std::atomic<bool> stop_simulation{false};
 

@@ -73,8 +73,9 @@ void HapticLoop::Impl::run_ticks(std::uint64_t wanted, const Observer& observe) 
     haptic.let_go();
 }
 
-/// A late tick is not ours when what it had to do took less than a period of the processor's time: it was woken
-/// late, or something else ran in between. Nor when the watch was not run either, all the machine was away then.
+/// A late tick is not ours when what it had to do took less than a period of the processor's time: it was
+/// woken late, or something else ran in between. Nor when the watch was not run either, all the machine was
+/// away then.
 bool HapticLoop::Impl::preempted(const TickTimes& times, std::int64_t used_ns,
                                  std::int64_t period) const noexcept {
     if (used_ns >= 0 && used_ns < period) return true;

@@ -64,7 +64,8 @@ struct CoupledProxy {
         mass << Vector3d::Constant(c.tool_mass_kg), Vector3d::Constant(c.tool_inertia_kg_m2);
         spring << Vector3d::Constant(c.stiffness_n_per_m),
             Vector3d::Constant(c.rotation_stiffness_nm_per_rad);
-        damper << Vector3d::Constant(c.damping_n_s_per_m), Vector3d::Constant(c.rotation_damping_nm_s_per_rad);
+        damper << Vector3d::Constant(c.damping_n_s_per_m),
+            Vector3d::Constant(c.rotation_damping_nm_s_per_rad);
     }
     /// The left-hand side's diagonal, kg.
     [[nodiscard]] Vec6 inertia(double dt) const noexcept { return mass + dt * damper + dt * dt * spring; }
@@ -86,8 +87,7 @@ struct Patch {
     [[nodiscard]] Patch after(double dt, const LocalModel& model, double push_n) const noexcept {
         const double mass = along_normal(model, model.mass), stiffness = along_normal(model, model.stiffness);
         const double inertia = mass + dt * along_normal(model, model.damping) + dt * dt * stiffness;
-        const double speed =
-            inertia > 0 ? (mass * m_per_s + dt * (push_n - stiffness * m)) / inertia : 0;
+        const double speed = inertia > 0 ? (mass * m_per_s + dt * (push_n - stiffness * m)) / inertia : 0;
         return {m + dt * speed, speed};
     }
 };
@@ -137,7 +137,8 @@ bool ReducedObject::correct(const LocalModel& model, double period_s) noexcept {
 void ReducedObject::lower_to(const LocalModel& model) noexcept {
     if (model_.step == 0) return;
     Eigen::Map<Vec6> bias(bias_.data());
-    if (!in_contact_ && twist(model_.origin, model.origin).head<3>().norm() > model_.radius_m + model.radius_m) {
+    if (!in_contact_ &&
+        twist(model_.origin, model.origin).head<3>().norm() > model_.radius_m + model.radius_m) {
         model_ = {};
         bias.setZero();
         return;
@@ -159,7 +160,8 @@ void ReducedObject::meet(const LocalModel& model) noexcept {
     } else {
         bias.setZero();
         // The patch is as far from its rest as it was.
-        patch_m_ = had_object ? patch_m_ + rest_of_patch(model) - rest_of_patch(model_) : rest_of_patch(model);
+        patch_m_ =
+            had_object ? patch_m_ + rest_of_patch(model) - rest_of_patch(model_) : rest_of_patch(model);
         if (!had_object) patch_m_per_s_ = 0;
         const Vector3d n = vector(model.normal);
         const double tool_m = n.dot(twist(model.origin, tool_).head<3>());
@@ -210,8 +212,8 @@ Wrench ReducedObject::advance_by(const Pose& hand, double dt) noexcept {
         in_contact_ = false;
         if (together) {
             const Vec6 held = held_velocity<N>(model_, proxy, push, d, both, dt, next);
-            const Vec6 impulse = proxy.inertia(dt).cwiseProduct(held) - proxy.pull(dt) -
-                                 proxy.mass.cwiseProduct(velocity);
+            const Vec6 impulse =
+                proxy.inertia(dt).cwiseProduct(held) - proxy.pull(dt) - proxy.mass.cwiseProduct(velocity);
             in_contact_ = !model_.unilateral || !(n.dot(impulse.head<3>()) < 0);
             if (in_contact_) next = held;
         }

@@ -16,8 +16,8 @@ struct TickTimes {
     bool missed = false, preempted = false;
 };
 
-/// Collects RunStatistics. The haptic thread adds ticks, the simulation thread adds steps, any thread reads: all by
-/// plain loads and stores of atomics that have one writer each.
+/// Collects RunStatistics. The haptic thread adds ticks, the simulation thread adds steps, any thread reads:
+/// all by plain loads and stores of atomics that have one writer each.
 class RunRecorder {
   public:
     /// Not while threads add.

@@ -27,8 +27,9 @@ SimulationResult SimulationSide::simulate(double dt_s) noexcept {
     return result;
 }
 
-/// The load of the model's law belongs to a tool at rest; the object pushed a moving one. Left in, what is pressed in
-/// fast seems thicker than it is (by a quarter at 30 mm/s in a cube of 110 kPa), and gives that back to the hand.
+/// The load of the model's law belongs to a tool at rest; the object pushed a moving one. Left in, what is
+/// pressed in fast seems thicker than it is (by a quarter at 30 mm/s in a cube of 110 kPa), and gives that
+/// back to the hand.
 void SimulationSide::bring_to_rest(SimulationResult& result) noexcept {
     LocalModel& model = result.model;
     if (has_last_tool_ && model.touched_nodes > 0) {

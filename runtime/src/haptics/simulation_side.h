@@ -12,9 +12,9 @@ namespace knead {
 
 /// The simulation's side of a two-rate loop: the newest hand, one step, the local model at its end.
 ///
-/// The step has a coupling of its own (simulation_config()) and follows the hand, not the haptic side's proxy:
-/// a wrong forecast there cannot come back as a motion here. Used by one thread at a time; no allocation, no
-/// lock.
+/// The step has a coupling of its own (simulation_config()) and follows the hand, not the haptic side's
+/// proxy: a wrong forecast there cannot come back as a motion here. Used by one thread at a time; no
+/// allocation, no lock.
 class SimulationSide {
   public:
     SimulationSide(Simulation& simulation, Exchange& exchange) noexcept;

@@ -43,7 +43,8 @@ void TurningTool::advance(const Pose& hand, double dt) noexcept {
     const double spring = config_.rotation_stiffness_nm_per_rad;
     const double damper = config_.rotation_damping_nm_s_per_rad;
     const double own = config_.tool_inertia_kg_m2 + dt * damper + dt * dt * spring;
-    const Matrix3d object = Map33(inertia_.data()) + dt * Map33(damping_.data()) + dt * dt * Map33(stiffness_.data());
+    const Matrix3d object =
+        Map33(inertia_.data()) + dt * Map33(damping_.data()) + dt * dt * Map33(stiffness_.data());
     const Vector3d momentum =
         (config_.tool_inertia_kg_m2 * Matrix3d::Identity() + Map33(inertia_.data())) * Map3(velocity_.data());
     const Vector3d push = Map3(torque_.data()) + spring * stretch + damper * hand_velocity;

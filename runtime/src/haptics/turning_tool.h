@@ -7,12 +7,12 @@
 
 namespace knead {
 
-/// The proxy's orientation in a synchronous loop: it follows the hand's through the rotational spring and damper,
-/// against the object's torque. (The translation's coupling is solved with the object, in its step.)
+/// The proxy's orientation in a synchronous loop: it follows the hand's through the rotational spring and
+/// damper, against the object's torque. (The translation's coupling is solved with the object, in its step.)
 ///
-/// One implicit Euler step a period of (I + J) w' = torque - K a - B w + k (hand - a) + b (hand' - w), with J, B, K
-/// the rotational blocks of the object's local model and a the turn since the torque was found: bounded for any dt,
-/// where the torque of the step before alone would be unstable against a stiff object.
+/// One implicit Euler step a period of (I + J) w' = torque - K a - B w + k (hand - a) + b (hand' - w), with
+/// J, B, K the rotational blocks of the object's local model and a the turn since the torque was found:
+/// bounded for any dt, where the torque of the step before alone would be unstable against a stiff object.
 class TurningTool {
   public:
     explicit TurningTool(const CouplingConfig& config) noexcept : config_(config) {}
@@ -25,7 +25,9 @@ class TurningTool {
     /// One period. @param hand at its end
     void advance(const Pose& hand, double dt_s) noexcept;
 
-    [[nodiscard]] const std::array<double, 4>& orientation_wxyz() const noexcept { return tool_.orientation_wxyz; }
+    [[nodiscard]] const std::array<double, 4>& orientation_wxyz() const noexcept {
+        return tool_.orientation_wxyz;
+    }
     [[nodiscard]] const Vec3& torque_nm() const noexcept { return felt_; }  ///< of the coupling on the hand
 
   private:

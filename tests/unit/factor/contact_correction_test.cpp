@@ -153,6 +153,16 @@ Vec direction(const HeldNode& held) {
                                   : Vec(held.rotation.transpose() * held.held.col(0).normalized());
 }
 
+/// Not one that has turned so little since `before` that the correction keeps that: it would be right to.
+HeldNode another_hold(std::uint32_t node, const std::vector<HeldNode>& before, std::mt19937_64& engine) {
+    HeldNode hold = random_hold(node, engine);
+    for (const HeldNode& other : before) {
+        while (other.node == node && std::abs(direction(hold).dot(direction(other))) > 0.9)
+            hold = random_hold(node, engine);
+    }
+    return hold;
+}
+
 std::vector<HeldNode> random_set(const Contact& contact, std::size_t count, std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     std::vector<HeldNode> held;
@@ -390,16 +400,12 @@ RC_GTEST_PROP(ContactCorrectionProperty, after_any_sequence_of_sets_is_the_const
     std::vector<HeldNode> held;
     const int steps = *rc::gen::inRange(1, 30);
     for (int step = 0; step < steps; ++step) {
-        // Some leave, some change, some enter, in any order.
+        // Some leave, some change, some enter or come back at once, in any order.
+        const std::vector<HeldNode> before = held;
         for (std::size_t k = held.size(); k-- > 0;) {
             const auto chance = engine() % 10;
             if (chance < 2) held.erase(held.begin() + static_cast<std::ptrdiff_t>(k));
-            if (chance < 2) continue;
-            if (chance != 3) continue;
-            const HeldNode before = held[k];
-            do {  // turned a little: it would stay as it was
-                held[k] = random_hold(before.node, engine);
-            } while (std::abs(direction(held[k]).dot(direction(before))) > 0.9);
+            if (chance == 3) held[k] = another_hold(held[k].node, before, engine);
         }
         for (std::size_t k = engine() % 6; k-- > 0;) {
             const std::uint32_t node = contact.touchable[engine() % contact.touchable.size()];
@@ -408,7 +414,7 @@ RC_GTEST_PROP(ContactCorrectionProperty, after_any_sequence_of_sets_is_the_const
                 there |= other.node == node;
             if (!there)
                 held.insert(held.begin() + static_cast<std::ptrdiff_t>(engine() % (held.size() + 1)),
-                            random_hold(node, engine));
+                            another_hold(node, before, engine));
         }
         contact.correction.update(held.data(), held.size(), contact.tool_inverses.data(), engine() % 8);
     }

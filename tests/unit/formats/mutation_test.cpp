@@ -7,6 +7,7 @@
 #include "knead/formats/inspect.h"
 #include "same.h"
 #include "samples.h"
+#include "session_sample.h"
 
 namespace knead::test {
 namespace {
@@ -83,6 +84,10 @@ TEST(Damaged_clustering, Gives_an_error_or_the_same_data) {
 
 TEST(Damaged_overlap, Gives_an_error_or_the_same_data) {
     check_all<OverlapMatrix>(sample_overlap(), write_overlap, read_overlap);
+}
+
+TEST(Damaged_session, Gives_an_error_or_the_same_data) {
+    check_all<SessionLog>(sample_session(), write_session_log, read_session_log);
 }
 
 TEST(Damaged_large_asset, Gives_an_error_or_the_same_data_in_its_chunks) {

@@ -239,8 +239,10 @@ TEST(HapticLoop, with_bad_numbers_is_refused_by_name) {
     }
     for (const double bad : {-1.0, infinite, nan}) {
         refused("coupling.damping_n_s_per_m", [&](auto& c) { c.coupling.damping_n_s_per_m = bad; });
-        refused("coupling.rotation_stiffness", [&](auto& c) { c.coupling.rotation_stiffness_nm_per_rad = bad; });
-        refused("coupling.rotation_damping", [&](auto& c) { c.coupling.rotation_damping_nm_s_per_rad = bad; });
+        refused("coupling.rotation_stiffness",
+                [&](auto& c) { c.coupling.rotation_stiffness_nm_per_rad = bad; });
+        refused("coupling.rotation_damping",
+                [&](auto& c) { c.coupling.rotation_damping_nm_s_per_rad = bad; });
     }
     refused("max_force_n", [](auto& c) { c.safety.max_force_n = 0; });
     HapticLoop loop = make_loop(device, simulation, {});

@@ -13,7 +13,8 @@ inline double length(const Vec3& v) {
     return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/// The object that loops touch here: a cube of 64 cells' edges, 0.1 m, under a plate at z = 0.1 that may leave.
+/// The object that loops touch here: a cube of 64 cells' edges, 0.1 m, under a plate at z = 0.1 that may
+/// leave.
 inline Asset touched_cube(ToolContact contact = ToolContact::sticking) {
     return cube_asset(3, ToolShape::plate, contact);
 }

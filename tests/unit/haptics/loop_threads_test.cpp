@@ -132,9 +132,9 @@ TEST_P(Threads, go_on_with_another_object_after_a_reload) {
     wait_for_push();
     loop->stop();
     EXPECT_EQ(device.force_z, 0);
-    Simulation other = Simulation::create(cube_asset(2, ToolShape::plate, ToolContact::sticking),
-                                          simulation_config(config))
-                           .value();
+    Simulation other =
+        Simulation::create(cube_asset(2, ToolShape::plate, ToolContact::sticking), simulation_config(config))
+            .value();
     HapticLoop next = HapticLoop::create(device, other, config).value();
     device.pushed = false;
     ASSERT_TRUE(next.start().ok());

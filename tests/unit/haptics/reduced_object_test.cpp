@@ -89,7 +89,8 @@ TEST(ReducedObject, that_is_bonded_pulls) {
     model.unilateral = false;
     object.reset(at(-0.003));
     ASSERT_TRUE(object.correct(model, 8e-3));
-    EXPECT_NEAR(settle(object, at(0.003)).force_n[2], -kObject * kSpring / (kObject + kSpring) * 0.003, kExact);
+    EXPECT_NEAR(settle(object, at(0.003)).force_n[2], -kObject * kSpring / (kObject + kSpring) * 0.003,
+                kExact);
 }
 
 TEST(ReducedObject, forgets_a_surface_that_a_result_contradicts) {
@@ -152,7 +153,8 @@ double last_swing(double mass_factor) {
     for (int i = 0; i < 2000; ++i) {
         if (i % 8 == 0) {
             // What stands in for the simulation: the surface, as far as the tool is in it.
-            LocalModel model = wall(std::min(z, object.tool().position_m[2]), 1 + static_cast<std::uint64_t>(i));
+            LocalModel model =
+                wall(std::min(z, object.tool().position_m[2]), 1 + static_cast<std::uint64_t>(i));
             for (double& entry : model.mass)
                 entry *= mass_factor;
             (void)object.correct(model, 8e-3);

@@ -313,7 +313,8 @@ TEST(TwoRate, whose_simulation_stopped_is_zero_after_50_ms_and_comes_back_with_a
         EXPECT_TRUE(status & kHapticStaleModel);
         touch.two_rate.simulates = true;
         for (int i = 0; i < 1000; ++i)
-            ASSERT_LE(length(touch.tick().device_force_n), config.safety.ramp_n_per_s * 1e-3 * (i + 1) + 1e-9);
+            ASSERT_LE(length(touch.tick().device_force_n),
+                      config.safety.ramp_n_per_s * 1e-3 * (i + 1) + 1e-9);
         EXPECT_NEAR(length(device.force), engaged, 0.05 * engaged);
     }
 }

@@ -12,7 +12,8 @@
 namespace knead {
 
 /// How far two numbers may lie apart and still count as the same: |a - b| <= absolute + relative * max(|a|,
-/// |b|). Zero and zero: bit for bit the same value (-0 equals 0; no NaN is ever in a file).
+/// |b|). Zero and zero: bit for bit the same value (-0 equals 0, the same NaN equals
+/// itself).
 struct Tolerance {
     double absolute = 0;
     double relative = 0;

@@ -12,6 +12,7 @@
 #include "knead/formats/clustering.h"
 #include "knead/formats/material.h"
 #include "knead/formats/overlap.h"
+#include "knead/formats/session_log.h"
 #include "knead/formats/tet_mesh.h"
 
 namespace knead {
@@ -26,7 +27,7 @@ struct ReadLimits {
     std::uint64_t max_bytes = std::uint64_t{64} << 30;  ///< memory of all arrays of one file together
 };
 
-enum class FileKind : std::uint8_t { tet_mesh, material, clustering, overlap, asset };
+enum class FileKind : std::uint8_t { tet_mesh, material, clustering, overlap, asset, session };
 
 /// Name of a kind as the file's `kind` attribute spells it.
 [[nodiscard]] const char* to_string(FileKind kind);
@@ -63,5 +64,7 @@ Result<MaterialObject> read_material(const std::filesystem::path& file, const Re
 Result<ClusteredObject> read_clustering(const std::filesystem::path& file, const ReadLimits& limits = {});
 Result<OverlapMatrix> read_overlap(const std::filesystem::path& file, const ReadLimits& limits = {});
 Result<Asset> read_asset(const std::filesystem::path& file, const ReadLimits& limits = {});
+/// At most limits.max_nodes ticks, and as many steps.
+Result<SessionLog> read_session_log(const std::filesystem::path& file, const ReadLimits& limits = {});
 
 }  // namespace knead

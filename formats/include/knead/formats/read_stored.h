@@ -17,7 +17,7 @@ struct Stored {
 
 /// The readers of read.h for whoever also needs the content hash: both come from one opening of the file, so
 /// that they belong together even while somebody replaces it. T: TetMesh, MaterialObject, ClusteredObject,
-/// OverlapMatrix or Asset. Errors, allocation and thread-safety as the readers.
+/// OverlapMatrix, Asset or SessionLog. Errors, allocation and thread-safety as the readers.
 template <class T>
 Result<Stored<T>> read_stored(const std::filesystem::path& file, const ReadLimits& limits = {});
 
@@ -32,6 +32,9 @@ Result<Stored<ClusteredObject>> read_stored<ClusteredObject>(const std::filesyst
 template <>
 Result<Stored<OverlapMatrix>> read_stored<OverlapMatrix>(const std::filesystem::path& file,
                                                          const ReadLimits& limits);
+template <>
+Result<Stored<SessionLog>> read_stored<SessionLog>(const std::filesystem::path& file,
+                                                   const ReadLimits& limits);
 template <>
 Result<Stored<Asset>> read_stored<Asset>(const std::filesystem::path& file, const ReadLimits& limits);
 

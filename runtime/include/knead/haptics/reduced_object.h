@@ -11,16 +11,16 @@
 
 namespace knead {
 
-/// The object as one tool feels it, small enough for the haptic rate: mass, damping and stiffness in the space
-/// of the contact (LocalModel), driven by the hand through the coupling.
+/// The object as one tool feels it, small enough for the haptic rate: mass, damping and stiffness in the
+/// space of the contact (LocalModel), driven by the hand through the coupling.
 ///
 /// In contact, proxy and contact patch are one body at q. With d its twist from the model's origin, v its
 /// velocity, h the hand's pose, w the hand's velocity:
 ///
 ///     (m + M) v' = load + bias - K d - B v + k (h - q) + b (w - v)
 ///
-/// by one implicit Euler step a haptic period: positive definite, bounded for any dt. The wrench on the hand is
-/// the coupling's, k (q - h) + b (v - w): it follows q, which never jumps.
+/// by one implicit Euler step a haptic period: positive definite, bounded for any dt. The wrench on the hand
+/// is the coupling's, k (q - h) + b (v - w): it follows q, which never jumps.
 ///
 /// `bias` takes up the difference between the old model and a new one where the proxy is, and then fades by
 /// `correction_gain` every simulation period: a result corrects the object without a step of the force.

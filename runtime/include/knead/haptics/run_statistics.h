@@ -24,11 +24,11 @@ struct RunStatistics {
     DurationStatistics tick;        ///< of a tick whole
     DurationStatistics simulation;  ///< of a step of the simulation with its local model
 
-    std::uint64_t misses = 0;            ///< ticks that ended after their period
-    std::uint64_t misses_preempted = 0;  ///< of them: the machine did not run us
-    std::uint64_t misses_ours = 0;       ///< of them: the rest
+    std::uint64_t misses = 0;             ///< ticks that ended after their period
+    std::uint64_t misses_preempted = 0;   ///< of them: the machine did not run us
+    std::uint64_t misses_ours = 0;        ///< of them: the rest
     std::uint64_t simulation_misses = 0;  ///< two-rate: steps that took longer than their period
-    double longest_tick_s = 0;           ///< from the schedule to the end
+    double longest_tick_s = 0;            ///< from the schedule to the end
 
     bool realtime_priority = false;   ///< the haptic thread ran with it
     int realtime_error = 0;           ///< errno of the refusal; 0 when it was not asked for or was given

@@ -9,8 +9,8 @@
 
 namespace knead {
 
-/// What the simulation's side of a two-rate loop hands to the haptic side: one step and the local model at its end.
-/// Plain data without pointers: it may be copied, stored and replayed.
+/// What the simulation's side of a two-rate loop hands to the haptic side: one step and the local model at
+/// its end. Plain data without pointers: it may be copied, stored and replayed.
 struct SimulationResult {
     std::uint64_t number = 0;     ///< of this step since the loop was made, from 1; 0: no result
     std::uint64_t hand_tick = 0;  ///< number of the HapticTick whose pose the step went to; 0: none yet

@@ -5,6 +5,7 @@
 #include "core/simd/factor_kernels.inl"
 #include "core/simd/field_kernels.inl"
 #include "core/simd/kernels.h"
+#include "core/simd/rotation_kernels.inl"
 #include "core/simd/sparse_kernels.inl"
 
 namespace knead::core {
@@ -13,6 +14,6 @@ extern const Kernels kAvx2Kernels;
 const Kernels kAvx2Kernels = {avx2::factor_kernels(),          avx2::element_kernels<float>(),
                               avx2::element_kernels<double>(), avx2::field_kernels<float>(),
                               avx2::field_kernels<double>(),   avx2::sparse_kernels<float>(),
-                              avx2::sparse_kernels<double>()};
+                              avx2::sparse_kernels<double>(), avx2::rotation_kernels<float>(), avx2::rotation_kernels<double>()};
 
 }  // namespace knead::core

@@ -4,6 +4,7 @@
 #include "core/simd/element_kernels.h"
 #include "core/simd/factor_kernels.h"
 #include "core/simd/field_kernels.h"
+#include "core/simd/rotation_kernels.h"
 #include "core/simd/sparse_kernels.h"
 
 namespace knead::core {
@@ -24,6 +25,8 @@ struct Kernels {
     FieldKernels<double> field_double;
     SparseKernels<float> sparse_float;
     SparseKernels<double> sparse_double;
+    RotationKernels<float> rotation_float;
+    RotationKernels<double> rotation_double;
 
     template <class S>
     [[nodiscard]] const ElementKernels<S>& element() const noexcept {
@@ -45,6 +48,13 @@ struct Kernels {
             return sparse_float;
         else
             return sparse_double;
+    }
+    template <class S>
+    [[nodiscard]] const RotationKernels<S>& rotation() const noexcept {
+        if constexpr (sizeof(S) == sizeof(float))
+            return rotation_float;
+        else
+            return rotation_double;
     }
 };
 

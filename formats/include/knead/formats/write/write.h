@@ -20,6 +20,8 @@ Status write_clustering(const std::filesystem::path& file, const ClusteredObject
 Status write_overlap(const std::filesystem::path& file, const OverlapMatrix& overlap,
                      const Provenance& provenance);
 Status write_asset(const std::filesystem::path& file, const Asset& asset, const Provenance& provenance);
+Status write_session_log(const std::filesystem::path& file, const SessionLog& log,
+                         const Provenance& provenance);
 
 /// Replaces `file` with `text` in the same atomic way; for reports, depfiles and exports.
 Status write_text_file(const std::filesystem::path& file, const std::string& text);

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// A minute of touch in real time, by a simulated hand: synchronous, and two-rate with the simulation at 60,
+// 120 and 500 Hz. Prints what the clock and the energy said; exits with 1 if a force was not finite or passed
+// its limit.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "knead/haptics/haptic_loop.h"
+#include "knead/haptics/simulated_operator.h"
+#include "unit/runtime/block_asset.h"
+
+namespace knead::test {
+namespace {
+
+constexpr double kEpsilonJ =
+    5e-4;  ///< a surface that is found up to a millisecond late, at 0.1 m/s and 10 kN/m
+constexpr double kDepthM = 0.008;  ///< what the hand asks for
+constexpr double kClearanceM = 0.004;
+constexpr double kCycleS = 2;  ///< in, hold, out, wait
+
+struct Case {
+    const char* name;
+    HapticMode mode;
+    double simulation_rate_hz;
+};
+constexpr Case kCases[] = {{"synchronous", HapticMode::synchronous, 1000},
+                           {"two-rate 60 Hz", HapticMode::two_rate, 60},
+                           {"two-rate 120 Hz", HapticMode::two_rate, 120},
+                           {"two-rate 500 Hz", HapticMode::two_rate, 500}};
+
+OperatorConfig pressing_hand(double seconds) {
+    OperatorConfig hand;
+    hand.position_resolution_m = 2e-5;
+    Pose start, deep;
+    start.position_m[2] = kClearanceM;
+    deep.position_m[2] = -kDepthM;
+    for (double t = 0; t < seconds; t += kCycleS) {
+        hand.path.push_back({t + 0.2 * kCycleS, start});
+        hand.path.push_back({t + 0.3 * kCycleS, deep});
+        hand.path.push_back({t + 0.8 * kCycleS, deep});
+        hand.path.push_back({t + 0.9 * kCycleS, start});
+    }
+    return hand;
+}
+
+/// What is seen of the force.
+struct Seen {
+    double most_n = 0, largest_change_n = 0;
+    Vec3 last{};
+    bool finite = true;
+
+    void add(const Vec3& f) {
+        const auto norm = [](double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); };
+        most_n = std::max(most_n, norm(f[0], f[1], f[2]));
+        largest_change_n = std::max(largest_change_n, norm(f[0] - last[0], f[1] - last[1], f[2] - last[2]));
+        finite = finite && std::isfinite(f[0] + f[1] + f[2]);
+        last = f;
+    }
+};
+
+bool run(const Result<Simulation>& probe, const std::string& asset, std::uint32_t cells, const Case& which,
+         double seconds) {
+    HapticConfig config;
+    config.mode = which.mode;
+    config.simulation_rate_hz = which.simulation_rate_hz;
+    config.workspace.offset_m = probe.value().tool_rest_pose().position_m;
+    config.workspace.rotation_wxyz = {1, 0, 0, 0};
+    config.coupling.damping_n_s_per_m = 1;
+    auto simulation = asset.empty()
+                          ? Simulation::create(cube_asset(cells, ToolShape::plate, ToolContact::sticking),
+                                               simulation_config(config))
+                          : Simulation::load(asset, simulation_config(config));
+    auto hand = SimulatedOperator::create(pressing_hand(seconds));
+    if (!simulation || !hand) return false;
+    auto loop = HapticLoop::create(hand.value(), simulation.value(), config);
+    if (!loop) return false;
+    Seen seen;
+    const auto done =
+        loop.value().run(seconds, [&](const HapticTick& tick) { seen.add(tick.device_force_n); });
+    if (!done) return false;
+    const RunStatistics& s = done.value();
+    const double us = 1e6;
+    std::printf(
+        "%-16s %8llu %7llu %7llu %7.1f %7.2f %7.2f %8.2f %8.1f %8.1f %8.1f %8.1f %8.4f %8.3f %9.1e %s\n",
+        which.name, static_cast<unsigned long long>(s.ticks), static_cast<unsigned long long>(s.misses_ours),
+        static_cast<unsigned long long>(s.misses_preempted), us * s.jitter_s, us * s.haptic.p50_s,
+        us * s.haptic.p99_s, us * s.haptic.max_s, us * s.tick.p50_s, us * s.tick.p99_s, us * s.tick.max_s,
+        us * s.simulation.p50_s, seen.largest_change_n, seen.most_n, hand.value().energy().port_peak_j,
+        hand.value().energy().port_peak_j <= kEpsilonJ ? "passive" : "ACTIVE");
+    std::printf("%-16s real-time priority %s; simulation late %llu times; status %#x, steps %#x\n", "",
+                s.realtime_priority ? "yes" : ("no (errno " + std::to_string(s.realtime_error) + ")").c_str(),
+                static_cast<unsigned long long>(s.simulation_misses), s.haptic_status, s.step_status);
+    std::fflush(stdout);
+    return seen.finite && seen.most_n <= config.safety.max_force_n * (1 + 1e-12);
+}
+
+}  // namespace
+}  // namespace knead::test
+
+int main(int argc, char** argv) {
+    using namespace knead;
+    using namespace knead::test;
+    const bool cube = argc > 2 && std::string(argv[1]) == "--cube";
+    if (argc < 2 || (cube && argc < 3)) {
+        std::fprintf(stderr,
+                     "Usage: haptic_minute ASSET [SECONDS]\n       haptic_minute --cube CELLS [SECONDS]\n");
+        return 2;
+    }
+    const std::string asset = cube ? "" : argv[1];
+    const auto cells = static_cast<std::uint32_t>(cube ? std::max(2, std::atoi(argv[2])) : 2);
+    const int at = cube ? 3 : 2;
+    const double seconds = argc > at ? std::atof(argv[at]) : 60;
+    const auto probe = cube ? Simulation::create(cube_asset(cells, ToolShape::plate, ToolContact::sticking))
+                            : Simulation::load(asset);
+    if (!probe) {
+        std::fprintf(stderr, "haptic_minute: error: %s\n", probe.error().text().c_str());
+        return 3;
+    }
+    std::printf("%zu tetrahedra, 1 kHz, %g s each; times in us; passive: at most %.1e J given to the hand\n",
+                probe.value().tetrahedron_count(), seconds, kEpsilonJ);
+    std::printf("%-16s %8s %7s %7s %7s %7s %7s %8s %8s %8s %8s %8s %8s %8s %9s\n", "", "ticks", "missed",
+                "preempt", "jitter", "hap p50", "p99", "max", "tick p50", "p99", "max", "step p50", "N/tick",
+                "max N", "given J");
+    bool good = true;
+    for (const Case& which : kCases)
+        good = run(probe, asset, cells, which, seconds) && good;
+    return good ? 0 : 1;
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "common/input.h"
+#include "common/progress.h"
+#include "common/run_tool.h"
+#include "common/stopwatch.h"
+#include "evaluate/html_report.h"
+#include "evaluate/machine.h"
+#include "evaluate/options.h"
+#include "evaluate/tables.h"
+#include "knead/formats/hash.h"
+#include "knead/formats/version.h"
+#include "knead/formats/write/write.h"
+
+namespace knead::tools {
+namespace {
+
+std::string minutes(double seconds) {
+    const auto whole = static_cast<long>(seconds + 0.5);
+    return fmt::format("{}:{:02} left", whole / 60, whole % 60);
+}
+
+/// Results belong to the program that made them: another build computes anew.
+std::string program_hash() {
+    const Result<std::string> hash = sha256_of_file("/proc/self/exe");
+    return hash.ok() ? hash.value() : std::string(kLibraryVersion);
+}
+
+/// Asked for before any work is done: a build without npm has none.
+std::string page_template() {
+    const auto file = html_template_path(std::filesystem::read_symlink("/proc/self/exe"));
+    std::ifstream stream(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (text.empty())
+        fail_result(file.string() +
+                    ": the page is not there, so --html cannot be written: it is made by the target "
+                    "knead_report_page, which needs npm");
+    return text;
+}
+
+/// tools/evaluate/data/paper.json, beside the page.
+nlohmann::ordered_json papers_numbers() {
+    const auto file =
+        html_template_path(std::filesystem::read_symlink("/proc/self/exe")).replace_filename("paper.json");
+    std::ifstream stream(file);
+    auto json = nlohmann::ordered_json::parse(stream, nullptr, false);
+    if (!json.is_object()) fail_result(file.string() + ": the paper's numbers are not there");
+    return json;
+}
+
+std::string command_line(const std::vector<std::string>& arguments) {
+    return fmt::format("knead-evaluate {}", fmt::join(arguments, " "));
+}
+
+std::vector<SceneResult> run_evaluation(ToolContext& context, const EvaluateOptions& options) {
+    EvaluationRequest request = request_of(options, context.threads);
+    const ResultCache cache(cache_folder(options), program_hash());
+    Progress progress(!context.quiet);
+    const Stopwatch watch;
+    EvaluationListener listener;
+    listener.progress = [&](std::size_t done, std::size_t total, std::string_view what) {
+        const double left_s = watch.seconds() / static_cast<double>(done) * static_cast<double>(total - done);
+        progress.show(done, total, fmt::format("{} {}", minutes(left_s), what));
+    };
+    const FileReader read = [&](const std::filesystem::path& file) {
+        return read_input_bytes(context, file).value;
+    };
+    for (const auto& scene : request.scenes)
+        context.add_input(scene);
+    return evaluate(request, cache, read, listener);
+}
+
+ExitCode run(ToolContext& context, const EvaluateOptions& options,
+             const std::vector<std::string>& arguments) {
+    const Stopwatch watch;
+    const std::optional<double> limit = fail_above_of(options);
+    if (!options.json.empty()) context.set_output(options.json);
+    const std::string page = options.html.empty() ? std::string() : page_template();
+    const Machine machine = describe_machine();
+    const std::vector<SceneResult> scenes = run_evaluation(context, options);
+    auto json = json_report(scenes, machine, KNEAD_COMMIT, command_line(arguments));
+    if (options.beside_paper) json["paper"] = papers_numbers();
+    if (!options.json.empty()) value_or_throw(write_text_file(options.json, json.dump() + "\n"));
+    if (!options.html.empty()) value_or_throw(write_text_file(options.html, html_report(json, page)));
+    if (!options.csv.empty()) value_or_throw(write_text_file(options.csv, csv_report(scenes)));
+    std::size_t cells = 0;
+    for (const SceneResult& scene : scenes)
+        cells += scene.cells.size();
+    const std::size_t above = limit ? count_above(scenes, *limit) : 0;
+    nlohmann::ordered_json report{
+        {"scenes", scenes.size()}, {"results", cells}, {"seconds", watch.seconds()}};
+    if (limit) report["above"] = above;
+    context.write_report(report.dump(2) + "\n");
+    const std::string wrong = disagreements(scenes);
+    if (!wrong.empty())
+        fail_result("the runtime and the reference solver differ by more than 0.1 %: " + wrong);
+    std::cout << text_report(scenes);
+    if (limit && above > 0)
+        context.tell(
+            fmt::format("{} of {} results are above {:g} % or did not converge", above, cells, 100 * *limit));
+    return above > 0 ? ExitCode::answer_is_no : ExitCode::done;
+}
+
+}  // namespace
+}  // namespace knead::tools
+
+int main(int argc, char** argv) {
+    using namespace knead::tools;
+    EvaluateOptions options;
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    const ToolInfo info{
+        .name = "knead-evaluate",
+        .purpose =
+            "say what each level of a scene costs in error of force and shape, and what it gains in time.",
+        .example =
+            "knead-evaluate steak.toml --methods paper,voigt --loads press10,scene --seeds 10 --json "
+            "steak.json",
+        .libraries = {},
+        .uses_threads = true};
+    return run_tool(
+        argc, argv, info, [&](CLI::App& app) { declare_options(app, options); },
+        [&](ToolContext& context) { return run(context, options, arguments); });
+}

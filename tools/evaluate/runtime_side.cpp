@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evaluate/runtime_side.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "common/error.h"
+#include "knead/runtime/simulation.h"
+
+namespace knead::tools {
+namespace {
+
+// The longest step of the runtime: implicit Euler damps the most there, and only the end state is asked for.
+constexpr double kRestDtS = 20e-3;
+constexpr int kRampSteps = 25;
+constexpr int kLargestHoldSteps = 1500;
+/// Still: no node moves by more than this share of the object's size in a second. Wanted is a force good to
+/// 1e-4; what still moves at this rate changes it by about 1e-6.
+constexpr double kStillPerSecond = 1e-6;
+
+constexpr double kDtS = 1e-3;
+constexpr double kSpeedMPerS = 0.1;
+constexpr int kStepsOfAPress = 250;
+constexpr int kWarmUpSteps = 50;
+constexpr double kTremorHz = 10;
+constexpr double kTremorM = 0.3e-3;
+constexpr double kSideTremorM = 0.1e-3;
+constexpr double kSideTremorHz = 8.5;
+/// Radians between the tremors of one press and the next: no two alike.
+constexpr double kPhaseStep = 2.4;
+
+// Figure 8 of the paper.
+constexpr double kCurveRampS = 15;
+constexpr double kCurveHoldS = 5;
+constexpr int kStepsBetweenPoints = 10;
+
+Simulation simulation_of(const Asset& asset, std::size_t tool, double expected_dt_s) {
+    SimulationConfig config;
+    config.tools = {tool};
+    config.expected_dt_s = expected_dt_s;
+    Result<Simulation> created = Simulation::create(asset, config);
+    if (!created.ok()) fail_result("the runtime refuses the asset: " + created.error().text());
+    return std::move(created).value();
+}
+
+Pose moved(Pose pose, const Point& direction, double way_m) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        pose.position_m[axis] += way_m * direction[axis];
+    return pose;
+}
+
+double resistance_n(const Vec3& force_n, const Point& direction) {
+    return -(force_n[0] * direction[0] + force_n[1] * direction[1] + force_n[2] * direction[2]);
+}
+
+double size_m(const Asset& asset) {
+    double size = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto [low, high] =
+            std::minmax_element(asset.nodes_m.begin(), asset.nodes_m.end(),
+                                [axis](const Point& a, const Point& b) { return a[axis] < b[axis]; });
+        size = std::max(size, (*high)[axis] - (*low)[axis]);
+    }
+    return size;
+}
+
+double largest_change_m(const double* positions_m, std::vector<double>& before_m) {
+    double largest = 0;
+    for (std::size_t k = 0; k < before_m.size(); ++k) {
+        largest = std::max(largest, std::abs(positions_m[k] - before_m[k]));
+        before_m[k] = positions_m[k];
+    }
+    return largest;
+}
+
+/// A direction across the press.
+Point sideways(const Point& direction) {
+    return std::abs(direction[0]) < 0.9 ? Point{1, 0, 0} : Point{0, 1, 0};
+}
+
+double tremor(double amplitude_m, double frequency_hz, double time_s, double phase_rad) {
+    const double angle = 2 * std::numbers::pi * frequency_hz * time_s;
+    return amplitude_m * (std::sin(angle + phase_rad) - std::sin(phase_rad));
+}
+
+/// Nearest rank: the smallest value that at least the share of all values does not exceed.
+double percentile(const std::vector<double>& increasing, double share) {
+    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(increasing.size())));
+    return increasing[std::max<std::size_t>(rank, 1) - 1];
+}
+
+using Clock = std::chrono::steady_clock;
+
+}  // namespace
+
+RuntimeRest press_until_still(const Asset& asset, std::size_t tool, const Point& direction, double way_m) {
+    Simulation simulation = simulation_of(asset, tool, kRestDtS);
+    const Pose rest = simulation.tool_rest_pose(0);
+    const double still_m = kStillPerSecond * size_m(asset) * kRestDtS;
+    RuntimeRest result;
+    std::vector<double> before_m(3 * simulation.node_count());
+    for (int k = 1; k <= kRampSteps + kLargestHoldSteps && !result.is_still; ++k) {
+        const double share = std::min(1.0, static_cast<double>(k) / kRampSteps);
+        const StepResult step = simulation.step(moved(rest, direction, share * way_m), kRestDtS);
+        result.force_n = resistance_n(step.force_n, direction);
+        result.status |= step.status;
+        const double change_m = largest_change_m(simulation.positions_m(), before_m);
+        result.is_still = k > kRampSteps && change_m < still_m;
+    }
+    return result;
+}
+
+ForceCurve press_curve(const Asset& asset, std::size_t tool, const Point& direction, double way_m) {
+    Simulation simulation = simulation_of(asset, tool, kRestDtS);
+    const Pose rest = simulation.tool_rest_pose(0);
+    ForceCurve curve;
+    const int steps = static_cast<int>(std::lround((kCurveRampS + kCurveHoldS) / kRestDtS));
+    for (int k = 1; k <= steps; ++k) {
+        const double time_s = k * kRestDtS;
+        const double share = std::min(1.0, time_s / kCurveRampS);
+        const StepResult step = simulation.step(moved(rest, direction, share * way_m), kRestDtS);
+        if (k % kStepsBetweenPoints != 0) continue;
+        curve.time_s.push_back(time_s);
+        curve.force_n.push_back(resistance_n(step.force_n, direction));
+    }
+    return curve;
+}
+
+StepTimes time_steps(const Asset& asset, std::size_t tool, const Point& direction, double way_m, int steps) {
+    Simulation simulation = simulation_of(asset, tool, kDtS);
+    const Pose rest = simulation.tool_rest_pose(0);
+    const Point side = sideways(direction);
+    std::vector<double> us;
+    us.reserve(static_cast<std::size_t>(steps));
+    StepTimes times;
+    for (int k = 0; k < steps + kWarmUpSteps; ++k) {
+        const int in_press = k % kStepsOfAPress;
+        const double phase = kPhaseStep * (k / kStepsOfAPress);
+        if (in_press == 0) simulation.reset();
+        const double time_s = (in_press + 1) * kDtS;
+        Pose pose = moved(rest, direction,
+                          std::min(way_m, kSpeedMPerS * time_s) - tremor(kTremorM, kTremorHz, time_s, phase));
+        pose = moved(pose, side, tremor(kSideTremorM, kSideTremorHz, time_s, phase));
+        const auto from = Clock::now();
+        const StepResult step = simulation.step(pose, kDtS);
+        const double took_us = std::chrono::duration<double, std::micro>(Clock::now() - from).count();
+        if (k < kWarmUpSteps) continue;
+        us.push_back(took_us);
+        times.not_ok += step.status == kStepOk ? 0 : 1;
+    }
+    std::sort(us.begin(), us.end());
+    times.p50_us = percentile(us, 0.5);
+    times.p99_us = percentile(us, 0.99);
+    times.p999_us = percentile(us, 0.999);
+    times.max_us = us.back();
+    times.steps = steps;
+    return times;
+}
+
+double time_load_ms(const std::filesystem::path& asset_file, int repetitions) {
+    std::vector<double> ms;
+    for (int k = 0; k < repetitions; ++k) {
+        const auto from = Clock::now();
+        const Result<Simulation> loaded = Simulation::load(asset_file);
+        ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - from).count());
+        if (!loaded.ok()) fail_result("the runtime refuses the asset: " + loaded.error().text());
+    }
+    std::nth_element(ms.begin(), ms.begin() + repetitions / 2, ms.end());
+    return ms[static_cast<std::size_t>(repetitions / 2)];
+}
+
+}  // namespace knead::tools
