@@ -17,6 +17,12 @@ run(${CC} ${flags} -std=c99 -Wall -Wextra -pedantic -Werror ${SOURCE}/tests/unit
 run(${WORK}/c_program ${ASSET})
 run(${pkg_config} --cflags --libs knead-haptics)
 separate_arguments(options UNIX_COMMAND "${run_output}")
+run(${CC} ${flags} -std=c99 -Wall -Wextra -pedantic -Werror ${SOURCE}/examples/c_loop/main.c -o ${WORK}/c_loop
+    ${options})
+run(${WORK}/c_loop ${ASSET})
+if(NOT run_output MATCHES "1\\.0 s +force +1\\.[67]")
+  message(FATAL_ERROR "the C loop must end with some 1.7 N:\n${run_output}")
+endif()
 run(${CXX} ${flags} -std=c++17 -Wall -Wextra -Werror ${SOURCE}/examples/haptic_loop/main.cpp
     -o ${WORK}/cpp_program ${options})
 run(${WORK}/cpp_program ${ASSET})
