@@ -85,8 +85,8 @@ template <class S>
 void NodeRotations<S>::update(const Elements<S>& elements, std::uint32_t shares) noexcept {
     Real sum = 0;
     for (std::size_t block = next_share_; block < blocks_; block += shares) {
-        sum += static_cast<Real>(kernels_.average(view(), block, elements.rotations().data(),
-                                                  elements.rotation_stride()));
+        sum += static_cast<Real>(
+            kernels_.average(view(), block, elements.rotations().data(), elements.rotation_stride()));
     }
     squared_angles_[next_share_] = sum;
     next_share_ = (next_share_ + 1) % shares;

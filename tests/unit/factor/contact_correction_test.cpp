@@ -21,6 +21,10 @@ constexpr std::size_t kTools = 2;
 // Error in the energy norm, relative: the table has float numbers whatever the factor has, and W's inverse
 // enlarges their rounding by its condition number, about 1e2 here.
 constexpr double kSingleError = 1e-4;
+// The same after long sequences of sets, which must not add to it: a float's rounding, 6e-8, times the
+// condition number of W with a unit diagonal, up to 8 there, times 5 for the sums of the factor (3.5e-7 was
+// the most in 1,500 sequences and as many clean starts).
+constexpr double kSequenceError = 2.5e-6;
 constexpr double kFixedError = 5e-3;
 constexpr double kDoubleError = 1e-5;
 
@@ -421,7 +425,7 @@ RC_GTEST_PROP(ContactCorrectionProperty, after_any_sequence_of_sets_is_the_const
     RC_ASSERT(contact.correction.update(held.data(), held.size(), contact.tool_inverses.data(), kAll));
     RC_ASSERT(contact.correction.taken_in() == held.size());
     // Sticking nodes may have been taken in with another rotation: the directions together are the same.
-    RC_ASSERT(contact.error(held, engine()) <= kSingleError);
+    RC_ASSERT(contact.error(held, engine()) <= kSequenceError);
 }
 
 }  // namespace

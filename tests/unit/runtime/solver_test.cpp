@@ -38,7 +38,8 @@ class TwistedCube {
           elements(model, kernels(best_simd_target())),
           masses(model),
           tools(1),
-          system{model, elements, masses, kernels(best_simd_target()).field<double>(), none_, tools, kDt_s, 1},
+          system{model, elements, masses, kernels(best_simd_target()).field<double>(),
+                 none_, tools,    kDt_s,  1},
           preconditioner(model, elements, numerics(matter), best_simd_target(), kDt_s, {}) {
         NodeField<double> u(model.rest_m.size()), forces(model.rest_m.size());
         for (std::size_t i = 0; i < model.rest_m.size(); ++i)
@@ -180,9 +181,9 @@ SolverLimits limits_of(Belief belief) {
 }
 
 /// Turned as a step would have it, and turned less than the matter: where r.z is far too small.
-const Matter kMatters[] = {{1e2, 0.49, 0.3, true},  {1e2, 0.49, 0.6, true},   {1e2, 0.49, 1.2, true},
-                           {1e6, 0.49, 0.3, true},  {1e6, 0.49, 0.6, true},   {1e6, 0.49, 1.2, true},
-                           {1e6, 0.3, 0.05, false}, {1e6, 0.3, 0.1, false},   {1e2, 0.49, 0.6, false}};
+const Matter kMatters[] = {{1e2, 0.49, 0.3, true},  {1e2, 0.49, 0.6, true}, {1e2, 0.49, 1.2, true},
+                           {1e6, 0.49, 0.3, true},  {1e6, 0.49, 0.6, true}, {1e6, 0.49, 1.2, true},
+                           {1e6, 0.3, 0.05, false}, {1e6, 0.3, 0.1, false}, {1e2, 0.49, 0.6, false}};
 const Vec kMotions_m[] = {{0, 0, -1e-4}, {2e-4, 0, 0}, {-1e-4, 1e-4, 1e-4}, {0, 0, -2e-3}};
 
 TEST(Solver, that_watches_keeps_its_promise_where_the_preconditioned_residual_is_too_small) {
@@ -229,8 +230,7 @@ TEST(Solver, starts_at_the_best_point_in_the_span_of_the_last_two_solutions) {
     const Eigen::VectorXd exact = cube.exact(load);
     SolverLimits none = limits_of(Belief::after_watching);
     none.max_iterations = 0;
-    const Eigen::VectorXd start =
-        cube.free_part(cube.solve(solver, load, none).displacement.nodes);
+    const Eigen::VectorXd start = cube.free_part(cube.solve(solver, load, none).displacement.nodes);
     // The least energy over the span, by the normal equations of the dense matrix.
     const Eigen::VectorXd b = cube.free_part(load);
     Eigen::Matrix2d gram;

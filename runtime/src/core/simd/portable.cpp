@@ -14,6 +14,7 @@ extern const Kernels kPortableKernels;
 const Kernels kPortableKernels = {portable::factor_kernels(),          portable::element_kernels<float>(),
                                   portable::element_kernels<double>(), portable::field_kernels<float>(),
                                   portable::field_kernels<double>(),   portable::sparse_kernels<float>(),
-                                  portable::sparse_kernels<double>(), portable::rotation_kernels<float>(), portable::rotation_kernels<double>()};
+                                  portable::sparse_kernels<double>(),  portable::rotation_kernels<float>(),
+                                  portable::rotation_kernels<double>()};
 
 }  // namespace knead::core
