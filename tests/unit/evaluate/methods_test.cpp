@@ -13,6 +13,7 @@
 #include "evaluate/scene_object.h"
 #include "material/scenario.h"
 #include "reference/static_problem.h"
+#include "reference/tensor_point.h"
 #include "support/kuhn_cube.h"
 #include "unit/reference/uniform_material.h"
 

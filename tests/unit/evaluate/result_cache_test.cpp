@@ -89,6 +89,7 @@ TEST(Cells, Error_of_exactly_the_jnd_is_within_and_one_above_is_not) {
     EXPECT_TRUE(cell(0.1, 1).within_jnd());
     EXPECT_TRUE(cell(-0.1, 1).within_jnd());
     EXPECT_FALSE(cell(0.1001, 1).within_jnd());
+    EXPECT_FALSE(cell(-0.1001, 1).within_jnd());
 }
 
 TEST(Cells, Cell_that_did_not_converge_is_never_within_and_counts_as_above) {
