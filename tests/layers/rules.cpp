@@ -146,9 +146,11 @@ Complaint common_rule(const SourceFile& file, const Include& include) {
     // A main may keep the declaration of its options in a file beside it.
     const std::string stem = std::filesystem::path(file.path).stem().string();
     if (stem == "main" || stem == "options" || !starts(include.name, "common/")) return std::nullopt;
-    for (const char* pure : {"common/error.h", "common/exit_code.h", "common/length.h"})
+    for (const char* pure :
+         {"common/error.h", "common/exit_code.h", "common/length.h", "common/metis_lock.h"})
         if (include.name == pure) return std::nullopt;
-    return "an algorithm may include of common only error.h, exit_code.h and length.h; the rest is for mains";
+    return "an algorithm may include of common only error.h, exit_code.h, length.h and metis_lock.h; the "
+           "rest is for mains";
 }
 
 Complaint examples_rule(const SourceFile& file, const Include& include) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/error.h"
+#include "common/metis_lock.h"
 
 namespace knead::tools {
 namespace {
@@ -62,6 +63,7 @@ std::vector<std::uint32_t> nested_dissection_order(const std::vector<Tetrahedron
     auto count = static_cast<idx_t>(free_nodes.size());
     std::vector<idx_t> order(free_nodes.size());
     std::vector<idx_t> place_in_order(free_nodes.size());
+    const auto lock = lock_metis();
     const int status = METIS_NodeND(&count, graph.offsets.data(), graph.neighbours.data(), nullptr, options,
                                     order.data(), place_in_order.data());
     if (status != METIS_OK) throw std::runtime_error("METIS_NodeND failed with " + std::to_string(status));

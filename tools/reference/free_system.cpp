@@ -7,6 +7,8 @@
 #include <array>
 #include <utility>
 
+#include "common/metis_lock.h"
+
 namespace knead::tools {
 namespace {
 
@@ -177,7 +179,10 @@ FreeSystem::FreeSystem(const ElasticBody& body, const std::vector<bool>& is_pres
     impl_->make_positions();
     impl_->make_tied_elements();
     impl_->factor.cholmod().print = 0;  // an indefinite matrix is an answer here, not a message
-    impl_->factor.analyzePattern(impl_->lower);
+    {
+        const auto lock = lock_metis();
+        impl_->factor.analyzePattern(impl_->lower);
+    }
 }
 
 FreeSystem::FreeSystem(FreeSystem&&) noexcept = default;

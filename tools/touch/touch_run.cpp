@@ -3,49 +3,19 @@
 
 #include <chrono>
 #include <cmath>
-#include <deque>
 #include <thread>
 #include <utility>
 
 #include "common/error.h"
 #include "knead/haptics/session.h"
 #include "touch/snapshot.h"
+#include "touch/virtual_simulation.h"
 
 namespace knead::tools {
 namespace {
 
 /// Room in the log beyond the time asked for: the loop goes on until it is stopped.
 constexpr double kSpare_s = 1;
-
-/// Steps and arrivals of a two-rate loop in virtual time.
-class VirtualSimulation {
-  public:
-    VirtualSimulation(HapticLoop& loop, double period_s) : loop_(loop), period_s_(period_s) {}
-
-    void arrive(double now_s) {
-        for (; !due_.empty() && due_.front().at_s <= now_s + kTie_s; due_.pop_front())
-            loop_.publish(due_.front().result);
-    }
-    void step(double now_s, const std::function<void(const SimulationResult&)>& observe) {
-        for (; next_s() <= now_s + kTie_s; ++steps_) {
-            due_.push_back({next_s() + kLatencyPeriods * period_s_, loop_.simulate(period_s_)});
-            observe(due_.back().result);
-        }
-    }
-
-  private:
-    struct Due {
-        double at_s;
-        SimulationResult result;
-    };
-    static constexpr double kTie_s = 1e-9;  ///< moments this near are the same
-    [[nodiscard]] double next_s() const { return static_cast<double>(steps_) * period_s_; }
-
-    HapticLoop& loop_;
-    double period_s_;
-    std::uint64_t steps_ = 0;
-    std::deque<Due> due_;
-};
 
 /// What sees the ticks and steps of a run: on the loop's threads in real time, so it neither allocates nor
 /// locks.
@@ -80,7 +50,8 @@ bool run_virtual(HapticLoop& loop, const TouchSetup& setup, Witness& witness, co
     const double period_s = 1 / setup.haptic.rate_hz;
     const auto shown_every =
         static_cast<std::uint64_t>(std::max(1.0, std::round(listener.show_period_s / period_s)));
-    VirtualSimulation simulation(loop, 1 / setup.haptic.simulation_rate_hz);
+    const double step_s = 1 / setup.haptic.simulation_rate_hz;
+    VirtualSimulation simulation(loop, step_s, kLatencyPeriods * step_s);
     for (std::uint64_t i = 0; i < setup.tick_count(); ++i) {
         if (stopped(listener)) return true;
         const double now_s = static_cast<double>(i) * period_s;

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <limits>
 
 #include "common/error.h"
 #include "knead/runtime/simulation.h"
+#include "touch/virtual_simulation.h"
 
 namespace knead::tools {
 namespace {
@@ -29,11 +29,11 @@ Pose moved(Pose pose, const Vec3& direction, double way) {
 }
 
 /// Device frame: the origin is where the tool rests; it keeps the orientation that it rests in.
-OperatorConfig pressing_hand(const ZWidthSetup& setup, const Pose& rest, double force_n) {
+OperatorConfig pressing_hand(const ZWidthSetup& setup, const Pose& rest, double clearance_m, double force_n) {
     OperatorConfig hand = setup.hand;
     hand.period_s = 1 / setup.haptic.rate_hz;
     const Pose origin{{}, rest.orientation_wxyz};
-    const Pose start = moved(origin, setup.direction, -setup.clearance_m);
+    const Pose start = moved(origin, setup.direction, -clearance_m);
     const Pose deep = moved(origin, setup.direction, force_n / hand.hand_stiffness_n_per_m);
     const double pressed = kWait + kPress, released = pressed + setup.hold_s;
     hand.path = {{kWait, start}, {pressed, deep}, {released, deep}, {released + kRelease, start}};
@@ -64,35 +64,6 @@ class Extent {
 double norm(const Vec3& v) {
     return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
-
-/// Steps and arrivals of a two-rate loop in virtual time.
-class SimulationSide {
-  public:
-    SimulationSide(HapticLoop& loop, double period_s, double latency_s)
-        : loop_(loop), period_s_(period_s), latency_s_(latency_s) {}
-
-    void arrive(double now_s) {
-        for (; !due_.empty() && due_.front().at_s <= now_s + kTie; due_.pop_front())
-            loop_.publish(due_.front().result);
-    }
-    void step(double now_s) {
-        for (; next_s() <= now_s + kTie; ++steps_)
-            due_.push_back({next_s() + latency_s_, loop_.simulate(period_s_)});
-    }
-
-  private:
-    struct Due {
-        double at_s;
-        SimulationResult result;
-    };
-    static constexpr double kTie = 1e-9;  ///< seconds: moments this near are the same
-    [[nodiscard]] double next_s() const { return static_cast<double>(steps_) * period_s_; }
-
-    HapticLoop& loop_;
-    double period_s_, latency_s_;
-    std::uint64_t steps_ = 0;
-    std::deque<Due> due_;
-};
 
 /// What is seen of a run while it goes on.
 class Observer {
@@ -144,20 +115,25 @@ ZWidthProbe probe_stiffness(const Asset& asset, const ZWidthSetup& setup, double
     config.workspace = {};
     config.workspace.offset_m = simulation.tool_rest_pose().position_m;
     config.workspace.rotation_wxyz = {1, 0, 0, 0};
+    // A tool that is bonded holds the hand from the start: away from its rest, the coupling's spring would be
+    // stretched by nobody, and what it gives the hand would be taken for the loop's (1 mJ at 2 kN/m and 1
+    // mm).
+    const bool bonded = asset.tools.at(setup.simulation.tools.front()).contact == ToolContact::bonded;
     SimulatedOperator hand = value_or_throw(SimulatedOperator::create(
-        pressing_hand(setup, simulation.tool_rest_pose(), setup.press_share * config.safety.max_force_n)));
+        pressing_hand(setup, simulation.tool_rest_pose(), bonded ? 0 : setup.clearance_m,
+                      setup.press_share * config.safety.max_force_n)));
     HapticLoop loop = value_or_throw(HapticLoop::create(hand, simulation, config));
 
     const bool two_rate = config.mode == HapticMode::two_rate;
     const double period_s = 1 / config.rate_hz, step_s = 1 / config.simulation_rate_hz;
-    SimulationSide side(loop, step_s, setup.latency_periods * step_s);
+    VirtualSimulation simulated(loop, step_s, setup.latency_periods * step_s);
     Observer observer(setup, search);
     const double seconds = 2 * kWait + kPress + setup.hold_s + kRelease;
     for (std::uint64_t i = 0; static_cast<double>(i) * period_s < seconds; ++i) {
         const double now_s = static_cast<double>(i) * period_s;
-        if (two_rate) side.arrive(now_s);
+        if (two_rate) simulated.arrive(now_s);
         const HapticTick tick = loop.tick(period_s);
-        if (two_rate) side.step(now_s);
+        if (two_rate) simulated.step(now_s);
         observer.see(now_s, tick, hand);
     }
     return observer.result(hand);
@@ -169,14 +145,16 @@ ZWidth find_z_width(const Asset& asset, const ZWidthSetup& setup, const ZWidthSe
     const auto is_good = [&](double stiffness_n_per_m) {
         const ZWidthProbe probe = probe_stiffness(asset, setup, stiffness_n_per_m, search);
         ++found.probes;
-        if (probe.good()) {
+        const bool good =
+            (probe.stable || !search.must_be_stable) && (probe.passive || !search.must_be_passive);
+        if (good) {
             found.stiffness_n_per_m = stiffness_n_per_m;
             found.good = probe;
         } else {
             bad_n_per_m = stiffness_n_per_m;
             found.bad = probe;
         }
-        return probe.good();
+        return good;
     };
     for (double stiffness = search.least_n_per_m; is_good(stiffness); stiffness *= 2)
         if (2 * stiffness > search.most_n_per_m) {

@@ -17,7 +17,7 @@ struct ZWidthSetup {
     double latency_periods =
         0.12;                   ///< two-rate: from the start of a step to its arrival, in its periods, >= 0
     Vec3 direction{0, 0, -1};   ///< of the press, scene frame, unit
-    double clearance_m = 1e-3;  ///< from the start to the rest pose
+    double clearance_m = 1e-3;  ///< from the start to the rest pose; a bonded tool starts there
     double press_share = 0.4;   ///< of the device's force that the press asks for at most, (0, 1]
     double hold_s = 1.0;        ///< at the deepest point
 };
@@ -44,6 +44,8 @@ struct ZWidthSearch {
     double oscillation_counts = 5;  ///< peak to peak, encoder counts ...
     double oscillation_m = 1e-4;    ///< ... or metres, whichever is more
     double epsilon_j = 5e-4;        ///< of the energy balance
+    bool must_be_stable = true;     ///< false: only passive
+    bool must_be_passive = true;    ///< false: only stable
 };
 
 /// The range of the coupling's stiffness, measured.

@@ -5,6 +5,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <future>
 #include <numeric>
 
 #include "support/kuhn_cube.h"
@@ -56,6 +57,23 @@ TEST(NodeOrder, Of_the_same_mesh_is_the_same) {
     const TetMesh mesh = test::kuhn_cube(6);
     const std::vector<bool> free(mesh.nodes_m.size(), true);
     EXPECT_EQ(nested_dissection_order(mesh.tetrahedra, free), nested_dissection_order(mesh.tetrahedra, free));
+}
+
+TEST(NodeOrder, Of_the_same_mesh_is_the_same_beside_others_that_are_ordered_at_the_time) {
+    const TetMesh mesh = test::kuhn_cube(6);
+    const std::vector<bool> free(mesh.nodes_m.size(), true);
+    const auto alone = nested_dissection_order(mesh.tetrahedra, free);
+    std::vector<std::future<bool>> orders;
+    for (int thread = 0; thread < 4; ++thread) {
+        orders.push_back(std::async(std::launch::async, [&] {
+            bool same = true;
+            for (int k = 0; k < 25; ++k)
+                same = same && nested_dissection_order(mesh.tetrahedra, free) == alone;
+            return same;
+        }));
+    }
+    for (auto& order : orders)
+        EXPECT_TRUE(order.get());
 }
 
 TEST(NodeOrder, Of_nodes_without_neighbours_is_their_own_order) {

@@ -106,6 +106,40 @@ TEST(ReducedObject, forgets_a_surface_that_a_result_contradicts) {
     EXPECT_NEAR(settle(object, at(-0.003)).force_n[2], 0, kExact);
 }
 
+TEST(ReducedObject, keeps_a_surface_while_the_proxy_is_near_wherever_a_result_looked) {
+    ReducedObject object(config());
+    object.reset(at(-0.003));
+    ASSERT_TRUE(object.correct(wall(-0.003), 8e-3));
+    (void)settle(object, at(0.002));
+    // The hand was forecast 3 cm above and stayed here.
+    ASSERT_TRUE(object.correct(wall(0.03, 2), 8e-3));
+    const double expected = kObject * kSpring / (kObject + kSpring) * 0.002;
+    EXPECT_NEAR(settle(object, at(-0.002)).force_n[2], expected, kExact);
+    // Now it does go there.
+    (void)settle(object, at(0.03));
+    ASSERT_TRUE(object.correct(wall(0.03, 3), 8e-3));
+    EXPECT_NEAR(settle(object, at(-0.002)).force_n[2], 0, kExact);
+}
+
+TEST(ReducedObject, found_around_a_moving_proxy_takes_its_momentum_and_adds_none) {
+    constexpr double kSpeed = 0.1, kPatch = 0.5, kDt = 1e-3;  // m/s, kg, s
+    const ReducedObject::Config c = config(0.5);
+    ReducedObject object(c);
+    object.reset(at(0.1));
+    double hand = 0.1;
+    while (hand > -1e-4)
+        (void)object.advance(at(hand -= kSpeed * kDt), kDt);
+    LocalModel late = wall(-1e-4);
+    late.mass[14] = kPatch;
+    ASSERT_TRUE(object.correct(late, 8e-3));
+    const double before = object.tool().position_m[2];
+    (void)object.advance(at(hand), kDt);
+    const double speed = (object.tool().position_m[2] - before) / kDt;
+    const double common = kSpeed * c.coupling.tool_mass_kg / (c.coupling.tool_mass_kg + kPatch);
+    // Forces of at most 0.3 N change it by 0.6 mm/s in the tick.
+    EXPECT_NEAR(speed, -common, 1e-3);
+}
+
 TEST(ReducedObject, takes_over_a_result_without_a_jump_and_then_by_its_gain) {
     ReducedObject::Config c = config();
     c.correction_gain = 0.2;

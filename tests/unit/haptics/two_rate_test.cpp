@@ -103,6 +103,25 @@ TEST(TwoRate, touches_with_latency_before_the_hand_is_deep_in_the_object) {
     EXPECT_GT(deepest, -1.5e-3);  // 8 ms unseen would be 1 mm on top of what a soft object gives
 }
 
+TEST(TwoRate, gives_the_simulation_the_hand_ahead_of_its_touch_and_as_it_is_in_contact) {
+    PlacedDevice device;
+    Touch touch(config_of(HapticMode::two_rate), device);
+    constexpr double kPerTick = 0.1e-3;  // m
+    int ahead = 0, here = 0;
+    for (int i = 0; i < 100; ++i) {
+        device.state.pose.position_m[2] = kTop_m + 0.005 - kPerTick * i;
+        const HapticTick tick = touch.loop.tick(1e-3);
+        if (i % 8 != 7) continue;
+        const SimulationResult result = touch.loop.simulate(8e-3);
+        touch.loop.publish(result);
+        const double before_m = tick.hand.position_m[2] - result.hand.position_m[2];
+        if (i > 16 && i < 30 && before_m > 8 * kPerTick) ++ahead;
+        if (i > 70 && before_m == 0) ++here;
+    }
+    EXPECT_EQ(ahead, 1);  // at tick 23
+    EXPECT_EQ(here, 4);
+}
+
 TEST(TwoRate, with_six_degrees_of_freedom_gives_a_torque_against_the_turn_in_both_modes) {
     double found[2];
     for (const HapticMode mode : {HapticMode::synchronous, HapticMode::two_rate}) {

@@ -1,43 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of docs/haptics.md: how stiff a coupling may be, by device, rendering and rate of the
+// The tables of docs/devices.md: how stiff a coupling may be, by device, rendering and rate of the
 // simulation.
-//   z_width_table DEVICES.toml shares|devices 0|1    the last: with the passivity controller
+//   z_width_table DEVICES.toml shares           the 12 set-ups, and how many of them keep their range
+//   z_width_table DEVICES.toml devices 0|1      every preset; the last: with the passivity controller
+#include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
+#include <map>
 #include <string>
+#include <tuple>
 
-#include "touch/device_presets.h"
-#include "touch/z_width.h"
-#include "unit/runtime/block_asset.h"
+#include "unit/touch/z_width_setups.h"
 
-namespace knead::tools {
+namespace knead::tools::test {
 namespace {
 
-constexpr std::uint32_t kCells = 4;  ///< 384 tetrahedra: what is measured is the loop, not the step's time
-
-/// The paper's cube with its top under a plate; 22 kPa gives about 2 kN/m.
-/// Damped as soft matter is: at 1 kHz implicit Euler damps next to nothing, and a cube that rings after the
-/// press would be taken for a loop that does.
-Asset cube(double youngs_modulus_pa) {
-    Asset asset = knead::test::cube_asset(kCells, ToolShape::plate, ToolContact::sticking,
-                                          {youngs_modulus_pa, 0.3, 1000});
-    asset.damping_per_s = 20;
-    return asset;
-}
-
-/// A light grip: what is stable in it is stable in a firm one.
-ZWidthSetup light_grip(const DevicePreset& device, bool passivity) {
-    ZWidthSetup setup;
-    OperatorConfig hand;
-    hand.hand_mass_kg = 0.03;
-    hand.hand_stiffness_n_per_m = 150;
-    hand.hand_damping_n_s_per_m = 1.0;
-    setup.hand = operator_on(device, hand);
-    setup.haptic.safety = safety_for(device);
-    setup.haptic.safety.passivity = passivity;
-    return setup;
-}
+constexpr LocalRendering kRenderings[] = {LocalRendering::hold, LocalRendering::linear,
+                                          LocalRendering::reduced_object};
+constexpr double kRates_hz[] = {60, 120, 500};
 
 std::string text_of(const ZWidth& found) {
     char text[32];
@@ -45,69 +24,102 @@ std::string text_of(const ZWidth& found) {
     return text;
 }
 
-ZWidth two_rate(const Asset& asset, ZWidthSetup setup, LocalRendering rendering, double rate_hz,
-                double latency_periods) {
-    setup.haptic.mode = HapticMode::two_rate;
-    setup.haptic.rendering = rendering;
-    setup.haptic.simulation_rate_hz = rate_hz;
-    setup.latency_periods = latency_periods;
-    return find_z_width(asset, setup);
+double share(double found, double synchronous, double most) {
+    return std::min(found, most) / std::min(synchronous, most);
 }
 
-constexpr LocalRendering kRenderings[] = {LocalRendering::hold, LocalRendering::linear,
-                                          LocalRendering::reduced_object};
+/// Of one rendering at one rate and latency: how many set-ups keep their range.
+struct Count {
+    int kept = 0, kept_of_interest = 0;
+};
+using Counts = std::map<std::tuple<int, double, double>, Count>;
 
-void print_shares(const std::vector<DevicePreset>& devices, bool passivity) {
-    std::printf("| E, kPa | device | latency | 1 kHz | hold | linear | reduced object | share |\n");
-    std::printf("|---|---|---|---|---|---|---|---|\n");
-    for (const double youngs_modulus_pa : {5.5e3, 22e3, 88e3})
-        for (const char* name : {"touch", "phantom_desktop", "inverse3"}) {
-            const Asset asset = cube(youngs_modulus_pa);
-            ZWidthSetup setup = light_grip(find_device(devices, name), passivity);
-            setup.hand.coulomb_friction_n = 0;  // it would hide what the rendering does
-            const ZWidth synchronous = find_z_width(asset, setup);
-            for (const double latency : {0.12, 1.0}) {
-                std::printf("| %.1f | %s | %.2f | %s |", youngs_modulus_pa / 1e3, name, latency,
-                            text_of(synchronous).c_str());
-                ZWidth found;
-                for (const LocalRendering rendering : kRenderings) {
-                    found = two_rate(asset, setup, rendering, 120, latency);
-                    std::printf(" %s |", text_of(found).c_str());
-                }
-                std::printf(" %.0f %% |\n", 100 * found.stiffness_n_per_m / synchronous.stiffness_n_per_m);
-                std::fflush(stdout);
+void print_counts(Counts& counts) {
+    std::printf("\n| rendering | latency | 60 Hz | 120 Hz | 500 Hz |\n|---|---|---|---|---|\n");
+    const char* const names[] = {"hold", "linear", "reduced object"};
+    for (std::size_t r = 0; r < 3; ++r)
+        for (const double latency : kLatencies) {
+            std::printf("| %s | %.2f |", names[r], latency);
+            for (const double rate_hz : kRates_hz) {
+                const Count& count = counts[{static_cast<int>(r), latency, rate_hz}];
+                std::printf(" %d / %d |", count.kept, count.kept_of_interest);
             }
+            std::printf("\n");
         }
 }
 
+void print_shares(const std::vector<DevicePreset>& devices) {
+    std::printf(
+        "| E, kPa | device | latency | 1 kHz | hold | linear | reduced object | share | of interest |\n");
+    std::printf("|---|---|---|---|---|---|---|---|---|\n");
+    Counts counts;
+    for (const double youngs_modulus_pa : kYoungsModuli_pa)
+        for (const char* name : kComparedDevices) {
+            const Asset asset = measured_cube(youngs_modulus_pa);
+            const DevicePreset& device = find_device(devices, name);
+            const ZWidthSetup setup = compared_grip(device);
+            const double most = range_of_interest_n_per_m(device);
+            const ZWidth synchronous = find_z_width(asset, setup);
+            for (const double latency : kLatencies) {
+                std::map<double, std::string> cells;
+                ZWidth reduced;
+                for (const double rate_hz : kRates_hz)
+                    for (std::size_t r = 0; r < 3; ++r) {
+                        const ZWidth found =
+                            find_z_width(asset, two_rate(setup, kRenderings[r], rate_hz, latency));
+                        Count& count = counts[{static_cast<int>(r), latency, rate_hz}];
+                        const double whole = found.stiffness_n_per_m, one = synchronous.stiffness_n_per_m;
+                        count.kept += whole >= kKept * one ? 1 : 0;
+                        count.kept_of_interest += share(whole, one, most) >= kKept ? 1 : 0;
+                        cells[rate_hz] += " " + text_of(found) + " |";
+                        if (rate_hz == 120) reduced = found;
+                    }
+                std::printf("| %.1f | %s | %.2f | %s |%s %.0f %% | %.0f %% |\n", youngs_modulus_pa / 1e3,
+                            name, latency, text_of(synchronous).c_str(), cells[120].c_str(),
+                            100 * reduced.stiffness_n_per_m / synchronous.stiffness_n_per_m,
+                            100 * share(reduced.stiffness_n_per_m, synchronous.stiffness_n_per_m, most));
+                std::fflush(stdout);
+            }
+        }
+    print_counts(counts);
+}
+
+/// "stable / passive": the largest stiffness that is the one, and the other.
+void print_cell(const Asset& asset, const ZWidthSetup& setup) {
+    ZWidthSearch stable, passive;
+    stable.must_be_passive = false;
+    passive.must_be_stable = false;
+    std::printf(" %s / %s |", text_of(find_z_width(asset, setup, stable)).c_str(),
+                text_of(find_z_width(asset, setup, passive)).c_str());
+}
+
 void print_devices(const std::vector<DevicePreset>& devices, bool passivity) {
-    const Asset asset = cube(22e3);
+    constexpr double kLatency = 0.12;
+    const Asset asset = measured_cube(22e3);
     std::printf("| device | 1 kHz |");
-    for (const int rate_hz : {60, 120, 500})
-        std::printf(" hold %d | linear %d | reduced %d |", rate_hz, rate_hz, rate_hz);
+    for (const double rate_hz : kRates_hz)
+        std::printf(" hold %.0f | linear %.0f | reduced %.0f |", rate_hz, rate_hz, rate_hz);
     std::printf("\n|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const DevicePreset& device : devices) {
         const ZWidthSetup setup = light_grip(device, passivity);
-        std::printf("| %s | %s |", device.name.c_str(), text_of(find_z_width(asset, setup)).c_str());
-        for (const double rate_hz : {60.0, 120.0, 500.0})
+        std::printf("| %s |", device.name.c_str());
+        print_cell(asset, setup);
+        for (const double rate_hz : kRates_hz)
             for (const LocalRendering rendering : kRenderings)
-                std::printf(" %s |", text_of(two_rate(asset, setup, rendering, rate_hz, 0.12)).c_str());
+                print_cell(asset, two_rate(setup, rendering, rate_hz, kLatency));
         std::printf("\n");
         std::fflush(stdout);
     }
 }
 
 }  // namespace
-}  // namespace knead::tools
+}  // namespace knead::tools::test
 
 int main(int argc, char** argv) {
-    using namespace knead::tools;
+    using namespace knead::tools::test;
     if (argc < 3) return 2;
-    std::ifstream stream(argv[1]);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    const std::vector<DevicePreset> devices = parse_device_presets(text, argv[1]);
-    const bool passivity = argc < 4 || std::string(argv[3]) == "1";
-    if (std::string(argv[2]) == "shares") print_shares(devices, passivity);
-    if (std::string(argv[2]) == "devices") print_devices(devices, passivity);
+    const auto devices = read_devices(argv[1]);
+    if (std::string(argv[2]) == "shares") print_shares(devices);
+    if (std::string(argv[2]) == "devices") print_devices(devices, argc < 4 || std::string(argv[3]) == "1");
     return 0;
 }
