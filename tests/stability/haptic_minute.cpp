@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kEpsilonJ =
     5e-4;  ///< a surface that is found up to a millisecond late, at 0.1 m/s and 10 kN/m
-constexpr double kDepthM = 0.008;  ///< what the hand asks for
-constexpr double kClearanceM = 0.004;
-constexpr double kCycleS = 2;  ///< in, hold, out, wait
+constexpr double kDepthM = 0.008;      ///< what the hand asks for
+constexpr double kClearanceM = 0.004;  ///< where it waits: above the surface, unless the tool is bonded to it
+constexpr double kCycleS = 2;          ///< in, hold, out, wait
 
 struct Case {
     const char* name;
@@ -31,11 +31,11 @@ constexpr Case kCases[] = {{"synchronous", HapticMode::synchronous, 1000},
                            {"two-rate 120 Hz", HapticMode::two_rate, 120},
                            {"two-rate 500 Hz", HapticMode::two_rate, 500}};
 
-OperatorConfig pressing_hand(double seconds) {
+OperatorConfig pressing_hand(double seconds, double clearance_m) {
     OperatorConfig hand;
     hand.position_resolution_m = 2e-5;
     Pose start, deep;
-    start.position_m[2] = kClearanceM;
+    start.position_m[2] = clearance_m;
     deep.position_m[2] = -kDepthM;
     for (double t = 0; t < seconds; t += kCycleS) {
         hand.path.push_back({t + 0.2 * kCycleS, start});
@@ -73,8 +73,12 @@ bool run(const Result<Simulation>& probe, const std::string& asset, std::uint32_
                           ? Simulation::create(cube_asset(cells, ToolShape::plate, ToolContact::sticking),
                                                simulation_config(config))
                           : Simulation::load(asset, simulation_config(config));
-    auto hand = SimulatedOperator::create(pressing_hand(seconds));
-    if (!simulation || !hand) return false;
+    if (!simulation) return false;
+    // A hand that engages with a bonded tool out of its place is given what the object then holds.
+    const bool bonded = simulation.value().step(simulation.value().tool_rest_pose(), 1e-3).touched_nodes > 0;
+    simulation.value().reset();
+    auto hand = SimulatedOperator::create(pressing_hand(seconds, bonded ? 0 : kClearanceM));
+    if (!hand) return false;
     auto loop = HapticLoop::create(hand.value(), simulation.value(), config);
     if (!loop) return false;
     Seen seen;
