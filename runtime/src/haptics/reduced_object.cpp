@@ -133,12 +133,12 @@ bool ReducedObject::correct(const LocalModel& model, double period_s) noexcept {
     return true;
 }
 
-/// Nothing touched the tool there. What is remembered stays as far as it agrees.
+/// Nothing touched the tool there. What is remembered stays as far as it agrees, and while the proxy is near
+/// it: where the result looked says nothing of it, the hand may have been forecast there and never have come.
 void ReducedObject::lower_to(const LocalModel& model) noexcept {
     if (model_.step == 0) return;
     Eigen::Map<Vec6> bias(bias_.data());
-    if (!in_contact_ &&
-        twist(model_.origin, model.origin).head<3>().norm() > model_.radius_m + model.radius_m) {
+    if (!in_contact_ && twist(model_.origin, tool_).head<3>().norm() > model_.radius_m + model.radius_m) {
         model_ = {};
         bias.setZero();
         return;
@@ -154,18 +154,16 @@ void ReducedObject::lower_to(const LocalModel& model) noexcept {
 void ReducedObject::meet(const LocalModel& model) noexcept {
     Eigen::Map<Vec6> bias(bias_.data());
     const bool had_object = model_.step != 0;
-    const Vec6 now = static_wrench(model, tool_);
     if (had_object && (in_contact_ || !model.unilateral)) {
-        bias += static_wrench(model_, tool_) - now;
+        bias += static_wrench(model_, tool_) - static_wrench(model, tool_);
     } else {
         bias.setZero();
         // The patch is as far from its rest as it was.
         patch_m_ =
             had_object ? patch_m_ + rest_of_patch(model) - rest_of_patch(model_) : rest_of_patch(model);
         if (!had_object) patch_m_per_s_ = 0;
-        const Vector3d n = vector(model.normal);
-        const double tool_m = n.dot(twist(model.origin, tool_).head<3>());
-        in_contact_ = n.dot(now.head<3>()) > 0 && tool_m <= patch_m_;
+        // If the proxy is in it already, advance() lets them meet: with a common momentum. Taken for one body
+        // here, the patch would have the proxy's speed for nothing.
     }
     if (!model.unilateral) in_contact_ = true;
     model_ = model;

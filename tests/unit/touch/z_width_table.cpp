@@ -2,8 +2,9 @@
 // The tables of docs/devices.md: how stiff a coupling may be, by device, rendering and rate of the
 // simulation.
 //   z_width_table DEVICES.toml shares           the 12 set-ups, and how many of them keep their range
+//   z_width_table DEVICES.toml others           12 others, at which nobody looked while the loop was made
 //   z_width_table DEVICES.toml devices 0|1      every preset; the last: with the passivity controller
-#include <cmath>
+#include <array>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -28,17 +29,44 @@ double share(double found, double synchronous, double most) {
     return std::min(found, most) / std::min(synchronous, most);
 }
 
+/// Twelve set-ups with the compared devices.
+struct SetUps {
+    std::array<double, 3> youngs_moduli_pa;
+    std::array<double, 2> latencies;
+    Asset (*cube)(double youngs_modulus_pa);
+    ZWidthSetup (*grip)(const DevicePreset& device);
+};
+
+/// A ball without friction instead of the plate.
+Asset cube_under_ball(double youngs_modulus_pa) {
+    Asset asset = knead::test::cube_asset(4, ToolShape::sphere, ToolContact::frictionless,
+                                          {youngs_modulus_pa, 0.3, 1000});
+    asset.damping_per_s = 20;
+    return asset;
+}
+
+ZWidthSetup firmer_grip(const DevicePreset& device) {
+    ZWidthSetup setup = compared_grip(device);
+    setup.hand.hand_mass_kg = 0.08;
+    setup.hand.hand_stiffness_n_per_m = 300;
+    setup.hand.hand_damping_n_s_per_m = 2;
+    return setup;
+}
+
+const SetUps kCompared{kYoungsModuli_pa, kLatencies, measured_cube, compared_grip};
+const SetUps kOthers{{11e3, 44e3, 160e3}, {0.35, 0.75}, cube_under_ball, firmer_grip};
+
 /// Of one rendering at one rate and latency: how many set-ups keep their range.
 struct Count {
     int kept = 0, kept_of_interest = 0;
 };
 using Counts = std::map<std::tuple<int, double, double>, Count>;
 
-void print_counts(Counts& counts) {
+void print_counts(const SetUps& set_ups, Counts& counts) {
     std::printf("\n| rendering | latency | 60 Hz | 120 Hz | 500 Hz |\n|---|---|---|---|---|\n");
     const char* const names[] = {"hold", "linear", "reduced object"};
     for (std::size_t r = 0; r < 3; ++r)
-        for (const double latency : kLatencies) {
+        for (const double latency : set_ups.latencies) {
             std::printf("| %s | %.2f |", names[r], latency);
             for (const double rate_hz : kRates_hz) {
                 const Count& count = counts[{static_cast<int>(r), latency, rate_hz}];
@@ -48,19 +76,19 @@ void print_counts(Counts& counts) {
         }
 }
 
-void print_shares(const std::vector<DevicePreset>& devices) {
+void print_shares(const std::vector<DevicePreset>& devices, const SetUps& set_ups) {
     std::printf(
         "| E, kPa | device | latency | 1 kHz | hold | linear | reduced object | share | of interest |\n");
     std::printf("|---|---|---|---|---|---|---|---|---|\n");
     Counts counts;
-    for (const double youngs_modulus_pa : kYoungsModuli_pa)
+    for (const double youngs_modulus_pa : set_ups.youngs_moduli_pa)
         for (const char* name : kComparedDevices) {
-            const Asset asset = measured_cube(youngs_modulus_pa);
+            const Asset asset = set_ups.cube(youngs_modulus_pa);
             const DevicePreset& device = find_device(devices, name);
-            const ZWidthSetup setup = compared_grip(device);
+            const ZWidthSetup setup = set_ups.grip(device);
             const double most = range_of_interest_n_per_m(device);
             const ZWidth synchronous = find_z_width(asset, setup);
-            for (const double latency : kLatencies) {
+            for (const double latency : set_ups.latencies) {
                 std::map<double, std::string> cells;
                 ZWidth reduced;
                 for (const double rate_hz : kRates_hz)
@@ -81,7 +109,14 @@ void print_shares(const std::vector<DevicePreset>& devices) {
                 std::fflush(stdout);
             }
         }
-    print_counts(counts);
+    print_counts(set_ups, counts);
+}
+
+/// The largest stiffness in kN/m; "+": the largest one tried was good.
+std::string short_text(const ZWidth& found) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g%s", found.stiffness_n_per_m / 1e3, found.at_most ? "+" : "");
+    return text;
 }
 
 /// "stable / passive": the largest stiffness that is the one, and the other.
@@ -89,8 +124,8 @@ void print_cell(const Asset& asset, const ZWidthSetup& setup) {
     ZWidthSearch stable, passive;
     stable.must_be_passive = false;
     passive.must_be_stable = false;
-    std::printf(" %s / %s |", text_of(find_z_width(asset, setup, stable)).c_str(),
-                text_of(find_z_width(asset, setup, passive)).c_str());
+    std::printf(" %s / %s |", short_text(find_z_width(asset, setup, stable)).c_str(),
+                short_text(find_z_width(asset, setup, passive)).c_str());
 }
 
 void print_devices(const std::vector<DevicePreset>& devices, bool passivity) {
@@ -119,7 +154,9 @@ int main(int argc, char** argv) {
     using namespace knead::tools::test;
     if (argc < 3) return 2;
     const auto devices = read_devices(argv[1]);
-    if (std::string(argv[2]) == "shares") print_shares(devices);
-    if (std::string(argv[2]) == "devices") print_devices(devices, argc < 4 || std::string(argv[3]) == "1");
+    const std::string what = argv[2];
+    if (what == "shares") print_shares(devices, kCompared);
+    if (what == "others") print_shares(devices, kOthers);
+    if (what == "devices") print_devices(devices, argc < 4 || std::string(argv[3]) == "1");
     return 0;
 }

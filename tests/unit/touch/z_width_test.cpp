@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+#include <string>
+
 #include "unit/runtime/block_asset.h"
 #include "unit/touch/z_width_setups.h"
 
@@ -95,6 +98,10 @@ struct Kept {
     double latency_periods;
     bool of_interest;  ///< only up to where the range of interest ends
 };
+
+void PrintTo(const Kept& kept, std::ostream* stream) {
+    *stream << kept.device << " " << kept.youngs_modulus_pa << " Pa";
+}
 
 class ZWidthKept : public ::testing::TestWithParam<Kept> {};
 
