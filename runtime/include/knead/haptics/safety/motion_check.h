@@ -14,7 +14,7 @@ struct MotionLimits {
     double max_turn_speed_rad_per_s = 50;  ///< > 0
     double slack_m = 1e-3;                 ///< added: noise, samples that come in pairs; >= 0
     double slack_rad = 0.02;               ///< likewise
-    double max_dt_ratio = 5;               ///< longest period over the expected one, >= 1
+    double max_dt_ratio = 8;               ///< longest period over the expected one, >= 1
 };
 
 /// What happened since the sample before.
