@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "capi/give.h"
 #include "knead/formats/version.h"
 #include "knead/runtime/simulation.h"
 
@@ -21,6 +22,9 @@ struct knead_simulation {
 };
 
 namespace {
+
+using knead::capi::give;
+using knead::capi::to_c;
 
 constexpr std::size_t kErrorBytes = 1024;
 /// Of the first version of each struct: less was not filled in by its init function.
@@ -63,23 +67,9 @@ knead::Pose to_cpp(const knead_pose& pose) noexcept {
     return result;
 }
 
-knead_pose to_c(const knead::Pose& pose) noexcept {
-    knead_pose result;
-    std::copy_n(pose.position_m.begin(), 3, result.position_m);
-    std::copy_n(pose.orientation_wxyz.begin(), 4, result.orientation_wxyz);
-    return result;
-}
-
-/// Into the caller's struct, which may be of an older or newer version: what both know.
-template <class T>
-void give(const T& ours, std::size_t their_size, void* theirs) noexcept {
-    std::memcpy(theirs, &ours, std::min(their_size, sizeof(T)));
-}
-
 void give(const knead::StepResult& step, const knead::ToolResult& tool, std::size_t their_size,
           void* theirs) noexcept {
     knead_step_result result{};
-    result.struct_size = their_size;
     std::copy_n(tool.force_n.begin(), 3, result.force_n);
     std::copy_n(tool.torque_nm.begin(), 3, result.torque_nm);
     std::copy_n(tool.tool_position_m.begin(), 3, result.tool_position_m);
@@ -91,7 +81,6 @@ void give(const knead::StepResult& step, const knead::ToolResult& tool, std::siz
 
 void give(const knead::LocalModel& model, std::size_t their_size, void* theirs) noexcept {
     knead_local_model result{};
-    result.struct_size = their_size;
     result.origin = to_c(model.origin);
     std::copy_n(model.force_n.begin(), 3, result.force_n);
     std::copy_n(model.torque_nm.begin(), 3, result.torque_nm);

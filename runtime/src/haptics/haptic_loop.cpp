@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "haptics/loop_impl.h"
+#include "haptics/quaternion.h"
 
 namespace knead {
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;
 constexpr double kSlowest_hz = 500;
 constexpr double kSlowestSimulation_hz = 50;  ///< Simulation::step() takes at most 20 ms
 constexpr double kFastest_hz = 4000;
@@ -26,11 +26,7 @@ Error bad(const std::string& what) {
 /// What is wrong, or an empty text.
 std::string fault(const WorkspaceMap& map) {
     if (!(map.scale > 0 && std::isfinite(map.scale))) return "workspace.scale must be finite and above 0";
-    double squares = 0;
-    for (const double part : map.rotation_wxyz)
-        squares += part * part;
-    if (!(std::abs(std::sqrt(squares) - 1) <= kUnitTolerance))
-        return "workspace.rotation_wxyz must be a unit quaternion";
+    if (!is_unit(map.rotation_wxyz)) return "workspace.rotation_wxyz must be a unit quaternion";
     for (const double offset : map.offset_m)
         if (!std::isfinite(offset)) return "workspace.offset_m must be finite";
     return {};

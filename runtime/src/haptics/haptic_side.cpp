@@ -10,8 +10,7 @@
 namespace knead {
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;  ///< as of the safety chain
-constexpr double kFarthest_m = 1e3;      ///< from the device's origin: beyond, it is not a hand
+constexpr double kFarthest_m = 1e3;  ///< from the device's origin: beyond, it is not a hand
 // What Simulation::step() takes.
 constexpr double kShortestStep_s = 0.25e-3;
 constexpr double kLongestStep_s = 20e-3;
@@ -26,11 +25,8 @@ constexpr std::uint32_t kFailed = kStepNotFinite | kStepBadInput;
 
 /// Makes the quaternion exactly unit. @return false if it is not a pose
 bool make_good(Pose& pose) noexcept {
-    double squares = 0;
-    for (const double part : pose.orientation_wxyz)
-        squares += part * part;
-    const double norm = std::sqrt(squares);
-    if (!(std::abs(norm - 1) <= kUnitTolerance)) return false;
+    if (!is_unit(pose.orientation_wxyz)) return false;
+    const double norm = length(pose.orientation_wxyz);
     for (double& part : pose.orientation_wxyz)
         part /= norm;
     return std::all_of(pose.position_m.begin(), pose.position_m.end(),

@@ -2,12 +2,23 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "knead/runtime/pose.h"
 
 namespace knead {
 
 using QuaternionWxyz = std::array<double, 4>;
+
+inline double length(const QuaternionWxyz& q) noexcept {
+    return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+}
+
+/// As far as what a device or an application gives can be: to a thousandth. False if it is not finite.
+inline bool is_unit(const QuaternionWxyz& q) noexcept {
+    constexpr double kTolerance = 1e-3;
+    return std::abs(length(q) - 1) <= kTolerance;
+}
 
 /// a then b read from the right: rotates by b first.
 inline QuaternionWxyz multiply(const QuaternionWxyz& a, const QuaternionWxyz& b) noexcept {

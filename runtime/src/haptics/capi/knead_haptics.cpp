@@ -10,10 +10,14 @@
 #include <optional>
 #include <utility>
 
+#include "capi/give.h"
 #include "knead/haptics/haptic_loop.h"
 #include "knead/runtime/simulation.h"
 
 namespace {
+
+using knead::capi::give;
+using knead::capi::to_c;
 
 constexpr std::size_t kErrorBytes = 1024;
 
@@ -24,13 +28,6 @@ knead_device_state to_c(const knead::DeviceState& state) noexcept {
     std::copy_n(state.velocity_m_per_s.begin(), 3, result.velocity_m_per_s);
     result.time_s = state.time_s;
     result.buttons = state.buttons;
-    return result;
-}
-
-knead_pose to_c(const knead::Pose& pose) noexcept {
-    knead_pose result;
-    std::copy_n(pose.position_m.begin(), 3, result.position_m);
-    std::copy_n(pose.orientation_wxyz.begin(), 4, result.orientation_wxyz);
     return result;
 }
 
@@ -96,14 +93,6 @@ knead_error fail(knead_haptic_loop& handle, knead_error code, const char* text) 
 
 knead_error fail(knead_haptic_loop& handle, const char* text) noexcept {
     return fail(handle, KNEAD_ERROR_INVALID_ARGUMENT, text);
-}
-
-/// Into the caller's struct, which may be of an older or newer version: what both know.
-template <class T>
-void give(T ours, T* theirs) noexcept {
-    const std::size_t size = theirs->struct_size;
-    ours.struct_size = size;
-    std::memcpy(theirs, &ours, std::min(size, sizeof(T)));
 }
 
 const char* problem_of(const knead_haptic_config& config) noexcept {
@@ -286,7 +275,7 @@ knead_error knead_haptic_loop_tick(knead_haptic_loop* loop, double dt_s, knead_h
     result.haptic_status = done.status;
     result.step_status = done.step.status;
     result.touched_nodes = done.step.touched_nodes;
-    give(result, tick);
+    give(result, tick->struct_size, tick);
     return KNEAD_OK;
 }
 
@@ -309,7 +298,7 @@ knead_error knead_haptic_loop_statistics(const knead_haptic_loop* loop,
     result.haptic_status = run.haptic_status;
     result.step_status = run.step_status;
     result.realtime_priority = run.realtime_priority ? 1 : 0;
-    give(result, statistics);
+    give(result, statistics->struct_size, statistics);
     return KNEAD_OK;
 }
 

@@ -12,15 +12,11 @@
 namespace knead {
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;
 constexpr double kShortestPeriod_s = 1e-5;
 constexpr double kLongestPeriod_s = 0.1;
 
 bool good(const Pose& pose) noexcept {
-    double squares = 0;
-    for (const double part : pose.orientation_wxyz)
-        squares += part * part;
-    return std::isfinite(norm(pose.position_m)) && std::abs(std::sqrt(squares) - 1) <= kUnitTolerance;
+    return std::isfinite(norm(pose.position_m)) && is_unit(pose.orientation_wxyz);
 }
 
 bool good(double dt_s, double expected_dt_s, double max_ratio) noexcept {
