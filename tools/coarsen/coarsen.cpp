@@ -61,12 +61,12 @@ double total(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-Coverage check_coverage(const TetMesh& fine, const TetMesh& coarse, const OverlapMatrix& overlap) {
+CoveredShares check_coverage(const TetMesh& fine, const TetMesh& coarse, const OverlapMatrix& overlap) {
     const std::vector<double> fine_volume = volumes_of(fine);
     const std::vector<double> coarse_volume = volumes_of(coarse);
     std::vector<double> fine_covered(fine_volume.size(), 0.0);
     std::vector<double> coarse_covered(coarse_volume.size(), 0.0);
-    Coverage coverage;
+    CoveredShares coverage;
     for (std::uint32_t row = 0; row < overlap.coarse_count; ++row) {
         for (std::uint64_t entry = overlap.row_offsets[row]; entry < overlap.row_offsets[row + 1]; ++entry) {
             coarse_covered[row] += overlap.volumes_m3[entry];

@@ -16,7 +16,7 @@ enum class CoarsenRule : std::uint8_t {
 };
 
 /// How well the two meshes cover each other. Shares are of volumes.
-struct Coverage {
+struct CoveredShares {
     double coarse_share = 0;                      ///< of the coarse mesh that lies in the fine one
     double fine_share = 0;                        ///< of the fine mesh that lies in the coarse one
     std::vector<std::uint32_t> coarse_missing;    ///< coarse tetrahedra that miss more than 1 %
@@ -26,7 +26,7 @@ struct Coverage {
 
 struct CoarsenResult {
     Material material;  ///< of the coarse mesh
-    Coverage coverage;
+    CoveredShares coverage;
 };
 
 /// Phase P4: values of the coarse tetrahedra from the overlap with the fine ones.

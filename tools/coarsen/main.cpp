@@ -58,7 +58,7 @@ void tell_about(const ToolContext& context, const std::filesystem::path& mesh,
 
 void report(const ToolContext& context, const Arguments& arguments, const CoarsenResult& result,
             double coarsen_s, double total_s) {
-    const Coverage& coverage = result.coverage;
+    const CoveredShares& coverage = result.coverage;
     context.tell(
         fmt::format("{}: {} tetrahedra; {:.4f} % of the coarse and {:.4f} % of the fine volume covered",
                     arguments.output.string(), result.material.youngs_modulus_pa.size(),

@@ -137,7 +137,7 @@ TEST(Coarsen, An_uncovered_coarse_tetrahedron_takes_the_nearest_fine_one) {
 
 TEST(Coarsen, Coverage_counts_what_misses_more_than_one_percent) {
     const OverlapMatrix overlap = shares(4, {{.995, 0, 0, 0}, {0, .98, 0, 0}, {0, 0, .5, .1}});
-    const Coverage coverage = coarsen(fine_four(), row(3), overlap, CoarsenRule::dominant).coverage;
+    const CoveredShares coverage = coarsen(fine_four(), row(3), overlap, CoarsenRule::dominant).coverage;
     EXPECT_THAT(coverage.coarse_missing, ElementsAre(1, 2));
     EXPECT_THAT(coverage.fine_missing, ElementsAre(1, 2, 3));
     EXPECT_THAT(coverage.coarse_uncovered, IsEmpty());
