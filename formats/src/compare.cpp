@@ -145,7 +145,7 @@ void check_options(const CompareOptions& options, const Payload& a, const Payloa
 
 Result<std::vector<Difference>> compare_files(const std::filesystem::path& a, const std::filesystem::path& b,
                                               const CompareOptions& options, const ReadLimits& limits) {
-    return guarded(a.string(), [&] {
+    return guarded(a, [&] {
         const LoadedFile first = load_file(a, limits, kEveryKind);
         const LoadedFile second = load_file(b, limits, kEveryKind);
         check_options(options, first.payload, second.payload);

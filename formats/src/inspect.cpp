@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "knead/formats/inspect.h"
 
+#include <map>
+
 #include "load.h"
 #include "number_text.h"
 
@@ -28,17 +30,38 @@ NodeInfo describe(const std::string& path, const Node& node) {
 
 /// Adds what lies below each group to the group's own header. Children stand behind their parents.
 void sum_groups(std::vector<NodeInfo>& nodes) {
+    std::map<std::string, std::size_t> index_of;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        index_of[nodes[i].path] = i;
     for (std::size_t i = nodes.size(); i-- > 0;) {
-        const std::string parent = nodes[i].path.substr(0, nodes[i].path.rfind('/'));
-        for (std::size_t k = i; k-- > 0;)
-            if (nodes[k].path == parent) nodes[k].bytes_on_disk += nodes[i].bytes_on_disk;
+        const auto parent = index_of.find(nodes[i].path.substr(0, nodes[i].path.rfind('/')));
+        if (parent != index_of.end()) nodes[parent->second].bytes_on_disk += nodes[i].bytes_on_disk;
     }
+}
+
+/// Through all checks; throws what they find.
+void read_whole(FileKind kind, const std::filesystem::path& file, const ReadLimits& limits) {
+    switch (kind) {
+        case FileKind::tet_mesh:
+            return (void)value_or_fail(read_tet_mesh(file, limits));
+        case FileKind::material:
+            return (void)value_or_fail(read_material(file, limits));
+        case FileKind::clustering:
+            return (void)value_or_fail(read_clustering(file, limits));
+        case FileKind::overlap:
+            return (void)value_or_fail(read_overlap(file, limits));
+        case FileKind::session:
+            return (void)value_or_fail(read_session_log(file, limits));
+        case FileKind::asset:
+            break;
+    }
+    return (void)value_or_fail(read_asset(file, limits));
 }
 
 }  // namespace
 
 Result<FileInfo> inspect_file(const std::filesystem::path& file, const ReadLimits& limits) {
-    return guarded(file.string(), [&] {
+    return guarded(file, [&] {
         LoadedFile loaded = load_file(file, limits, kEveryKind);
         FileInfo info;
         info.header = loaded.header;
@@ -55,28 +78,11 @@ Result<FileInfo> inspect_file(const std::filesystem::path& file, const ReadLimit
 }
 
 Result<FileKind> validate_file(const std::filesystem::path& file, const ReadLimits& limits) {
-    const Result<FileHeader> header = read_header(file, limits);
-    if (!header.ok()) return header.error();
-    const FileKind kind = header.value().kind;
-    const auto kind_or_error = [&](const auto& result) -> Result<FileKind> {
-        if (!result.ok()) return result.error();
+    return guarded(file, [&] {
+        const FileKind kind = value_or_fail(read_header(file, limits)).kind;
+        read_whole(kind, file, limits);
         return kind;
-    };
-    switch (kind) {
-        case FileKind::tet_mesh:
-            return kind_or_error(read_tet_mesh(file, limits));
-        case FileKind::material:
-            return kind_or_error(read_material(file, limits));
-        case FileKind::clustering:
-            return kind_or_error(read_clustering(file, limits));
-        case FileKind::overlap:
-            return kind_or_error(read_overlap(file, limits));
-        case FileKind::session:
-            return kind_or_error(read_session_log(file, limits));
-        case FileKind::asset:
-            break;
-    }
-    return kind_or_error(read_asset(file, limits));
+    });
 }
 
 }  // namespace knead

@@ -8,7 +8,7 @@
 namespace knead {
 namespace {
 
-constexpr std::array<const char*, 2> kPrecisions{"float32", "float64"};
+constexpr std::array<const char*, 3> kPrecisions{"float32", "float64", "mixed"};
 constexpr std::array<const char*, 3> kPreconditioners{"factor", "laplacian", "sparse_inverse"};
 constexpr std::array<const char*, 3> kStorages{"fixed16", "float32", "float64"};
 constexpr std::array<const char*, 6> kReasons{"low_contrast",   "high_contrast",   "nearly_incompressible",

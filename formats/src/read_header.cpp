@@ -64,7 +64,7 @@ std::vector<Asset::Request> take_requests(Schema& schema) {
 }
 
 Result<FileHeader> read_header(const std::filesystem::path& file, const ReadLimits& limits) {
-    return guarded(file.string(), [&] { return load_header(file, limits).header; });
+    return guarded(file, [&] { return load_header(file, limits).header; });
 }
 
 }  // namespace knead

@@ -15,7 +15,7 @@ namespace knead {
 template <class T, class Take>
 Result<Stored<T>> read_kind(const std::filesystem::path& file, const ReadLimits& limits,
                             std::initializer_list<FileKind> accepted, Take&& take) {
-    return guarded(file.string(), [&]() -> Stored<T> {
+    return guarded(file, [&]() -> Stored<T> {
         LoadedFile loaded = load_file(file, limits, accepted);
         try {
             Schema schema(loaded.payload, file.string(), limits);

@@ -18,11 +18,11 @@ EmbeddedSurface::EmbeddedSurface(const Asset& asset) : triangles_(asset.embeddin
 }
 
 Result<EmbeddedSurface> EmbeddedSurface::create(const Asset& asset) {
-    if (Status status = validate(asset); !status) return status.error();
-    if (asset.embedding.triangles.empty())
-        return Error{ErrorCode::invalid_argument,
-                     "the asset has no embedded surface: its scene has no [embedding]", asset.name};
     try {
+        if (Status status = validate(asset); !status) return status.error();
+        if (asset.embedding.triangles.empty())
+            return Error{ErrorCode::invalid_argument,
+                         "the asset has no embedded surface: its scene has no [embedding]", asset.name};
         return EmbeddedSurface(asset);
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::out_of_memory, "the surface does not fit into memory", asset.name};

@@ -7,6 +7,7 @@
 
 #include "core/step.h"
 #include "load/check_config.h"
+#include "load/check_numbers.h"
 
 namespace knead {
 
@@ -32,9 +33,10 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 Result<Simulation> Simulation::create(const Asset& asset, const SimulationConfig& config) {
-    if (Status status = validate(asset); !status) return status.error();
-    if (Status status = check_config(config, asset); !status) return status.error();
     try {
+        if (Status status = validate(asset); !status) return status.error();
+        if (Status status = check_numbers(asset); !status) return status.error();
+        if (Status status = check_config(config, asset); !status) return status.error();
         return Simulation(std::make_unique<Impl>(asset, config));
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::out_of_memory, "the simulation does not fit into memory", asset.name};

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <optional>
 
-#include "bench/baseline.h"
+#include "baseline/baseline.h"
 #include "bench/exact_step.h"
 
 namespace knead::bench {
 namespace {
+
+using baseline::Baseline;
 
 using Eigen::Vector3d;
 

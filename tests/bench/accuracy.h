@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bench/body.h"
+#include "bench/exact_step.h"
 #include "bench/motion.h"
 #include "knead/runtime/simulation.h"
 

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <string>
 
-#include "bench/body.h"
+#include "baseline/body.h"
 
 namespace knead::bench {
+
+using baseline::Body;
 
 /// What a part of a step must read and compute in single precision (factors stored in 16 bits), however well
 /// it is written.

@@ -3,9 +3,21 @@
 
 #include <memory>
 
-#include "bench/body.h"
+#include "baseline/body.h"
 
 namespace knead::bench {
+
+using baseline::Body;
+using baseline::Columns;
+using baseline::make_body;
+using baseline::State;
+
+/// What a step ends in.
+struct Step {
+    State state;
+    Eigen::Vector3d force_n = Eigen::Vector3d::Zero();  ///< of the object on the plate
+    int iterations = 0;                                 ///< of conjugate gradients
+};
 
 /// The step that the runtime approximates, in double precision and solved to rounding.
 ///

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "bench/baseline.h"
+#include "baseline/baseline.h"
 #include "bench/motion.h"
 #include "bench/scene.h"
 #include "reference/implicit_euler.h"
@@ -14,6 +14,8 @@
 
 namespace knead::bench {
 namespace {
+
+using baseline::Baseline;
 
 constexpr std::uint32_t kCells = 3;
 constexpr double kDtS = 1e-3;

@@ -72,7 +72,7 @@ HapticCycleRow measure(const Asset& asset, const Variant& variant, int ticks) {
         ++steps;
         loop.publish(loop.simulate(1 / kSimulationHz));
     }
-    return {variant.name, ticks, percentiles(std::move(us))};
+    return {variant.name, ticks, baseline::percentiles(std::move(us))};
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/statistics.h"
+#include "baseline/statistics.h"
 
 namespace knead::bench {
 
@@ -12,7 +12,7 @@ namespace knead::bench {
 struct HapticCycleRow {
     std::string rendering;  ///< "reduced object", "reduced object, 6 dof", "linear", "hold"
     int ticks = 0;
-    Percentiles us;  ///< of one tick
+    baseline::Percentiles us;  ///< of one tick
 };
 
 /// A plate on a cube of cells^3, two-rate in virtual time at 1 kHz, the simulation at 120 Hz between the

@@ -177,7 +177,7 @@ HardCaseRow measure_hard_case(const HardCase& c) {
     std::vector<double> us;
     for (double spent_s = 0; us.size() < kTimedSteps && spent_s < kTimedS;)
         spent_s += time_steps(simulation, c, us);
-    row.us = percentiles(us);
+    row.us = baseline::percentiles(us);
     judge(c, row);
     return row;
 }

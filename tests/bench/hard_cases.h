@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "baseline/statistics.h"
 #include "bench/accuracy.h"
-#include "bench/statistics.h"
 #include "knead/formats/material.h"
 
 namespace knead::bench {
@@ -33,7 +33,7 @@ struct HardCaseRow {
     double dt_ms = 0;
     Accuracy accuracy;  ///< of the compared part
     bool trajectory_defined = true;
-    Percentiles us;
+    baseline::Percentiles us;
     bool finite = true;
     bool bounded = true;         ///< no force above kBound times the largest exact one
     std::optional<double> rest;  ///< as HardCase::largest_rest

@@ -118,7 +118,7 @@ std::vector<LeaveOutRow> measure_leave_out(std::uint32_t cells, int steps) {
             runner.slice(motion);
     std::vector<LeaveOutRow> rows;
     for (Runner& runner : runners) {
-        runner.row.us = percentiles(runner.us);
+        runner.row.us = baseline::percentiles(runner.us);
         rows.push_back(runner.row);
     }
     return rows;

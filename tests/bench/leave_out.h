@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/statistics.h"
+#include "baseline/statistics.h"
 
 namespace knead::bench {
 
@@ -14,7 +14,7 @@ struct LeaveOutRow {
     std::string scene;  ///< "minimal", "+ gravity", ...
     std::uint64_t file_bytes = 0;
     std::int64_t simulation_bytes = 0;
-    Percentiles us;
+    baseline::Percentiles us;
 };
 
 /// The minimal press first, then with one thing more each, then with all that go together; timed in turns.

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "baseline/statistics.h"
 #include "bench/allocation.h"
-#include "bench/statistics.h"
 #include "knead/formats/write/write.h"
 
 namespace knead::bench {
@@ -58,7 +58,7 @@ Loading measure_loading(const Asset& asset, int repetitions, const SimulationCon
     }
     loading.first_ms = times_ms.front();
     times_ms.erase(times_ms.begin());
-    loading.median_ms = percentiles(times_ms).p50;
+    loading.median_ms = baseline::percentiles(times_ms).p50;
     return loading;
 }
 

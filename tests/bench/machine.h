@@ -4,11 +4,13 @@
 #include <optional>
 #include <string>
 
+#include "baseline/machine.h"
+
 namespace knead::bench {
 
-/// What the figures were measured on.
-struct Machine {
-    std::string cpu, isa, compiler, flags, os;
+/// What the figures were measured on, and with which instructions.
+struct Machine : baseline::Machine {
+    std::string isa, flags;
     int core = -1;  ///< that the process is pinned to; -1: none
 };
 

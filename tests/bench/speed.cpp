@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <chrono>
 
+#include "baseline/baseline.h"
 #include "bench/allocation.h"
-#include "bench/baseline.h"
 #include "bench/scene.h"
 
 namespace knead::bench {
 namespace {
+
+using baseline::Baseline;
 
 // Google Benchmark times a loop as a whole. Here every step is timed for its percentiles, and runtime and
 // baseline take turns so that whatever else the machine does hits both: hence a loop of our own.
@@ -100,8 +102,8 @@ void time_in_turns(const SpeedRequest& request, Simulation& simulation, Baseline
     row.cold_starts = presses.count();
     row.timed_steps = static_cast<int>(us.size());
     row.baseline_timed_steps = static_cast<int>(baseline_us.size());
-    row.us = percentiles(us);
-    row.baseline_us = percentiles(baseline_us);
+    row.us = baseline::percentiles(us);
+    row.baseline_us = baseline::percentiles(baseline_us);
     row.ratio = row.baseline_us.p50 / row.us.p50;
     row.mean_iterations = iterations / steps;
     row.baseline_mean_iterations = baseline_iterations / baseline_steps;

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
+#include "baseline/statistics.h"
 #include "bench/accuracy.h"
 #include "bench/cost.h"
 #include "bench/loading.h"
-#include "bench/statistics.h"
 
 namespace knead::bench {
 
@@ -25,7 +25,7 @@ struct SpeedRow {
     std::uint32_t cells = 0;
     std::uint64_t tetrahedra = 0, nodes = 0;
     int timed_steps = 0, baseline_timed_steps = 0, cold_starts = 0;
-    Percentiles us, baseline_us;
+    baseline::Percentiles us, baseline_us;
     double ratio = 0;  ///< of the medians
     double mean_iterations = 0;
     std::uint32_t largest_iterations = 0;

@@ -10,6 +10,7 @@
 #include "knead/formats/hash.h"
 #include "knead/formats/numerics.h"
 #include "knead/formats/write/write.h"
+#include "quality/report_text.h"
 
 namespace {
 
@@ -21,6 +22,7 @@ struct Options {
     std::filesystem::path object;
     std::filesystem::path output;
     std::string level;
+    bool strict = false;
 };
 
 void declare(CLI::App& app, Options& options) {
@@ -28,6 +30,8 @@ void declare(CLI::App& app, Options& options) {
     app.add_option("OBJECT", options.object, "mesh and material of the level")->required();
     app.add_option("-l,--level", options.level, "name of the level in the scene")->required();
     app.add_option("-o,--output", options.output, "asset to write; replaced only once complete")->required();
+    app.add_flag("--strict", options.strict,
+                 "with a warning of the quality gate: write no asset, exit with 1");
 }
 
 /// Empty when the scene asks for none.
@@ -43,7 +47,7 @@ Input<Skin> read_scene_skin(ToolContext& context, const Scene& scene) {
     return {std::move(skin), bytes.content_hash};
 }
 
-std::string report(const Asset& asset, double seconds) {
+std::string report(const Asset& asset, const QualityReport& quality, double seconds) {
     nlohmann::ordered_json json;
     json["schema"] = "knead-bake/1";
     json["nodes"] = asset.nodes_m.size();
@@ -56,7 +60,7 @@ std::string report(const Asset& asset, double seconds) {
         json["embedding"] = {{"vertices", asset.embedding.vertex_count()},
                              {"still_vertices", asset.embedding.still_vertices_m.size()},
                              {"triangles", asset.embedding.triangles.size()}};
-    const Numerics numerics = choose_numerics(asset);
+    const Numerics& numerics = quality.conditioning.numerics;
     json["numerics"] = {{"arithmetic", to_string(numerics.arithmetic)},
                         {"arithmetic_reason", to_string(numerics.arithmetic_reason)},
                         {"preconditioner", to_string(numerics.preconditioner)},
@@ -66,8 +70,16 @@ std::string report(const Asset& asset, double seconds) {
                         {"contrast", numerics.contrast},
                         {"press_contrast", numerics.press_contrast},
                         {"max_poissons_ratio", numerics.max_poissons_ratio}};
+    json["quality"] = to_json(quality);
     json["seconds"] = seconds;
     return json.dump(2) + "\n";
+}
+
+void say(const ToolContext& context, const QualityReport& quality) {
+    for (const std::string& line : to_lines(quality))
+        context.detail(line);
+    for (const Finding& finding : quality.findings)
+        finding.warning ? context.warn(to_text(finding)) : context.detail(to_text(finding));
 }
 
 ExitCode run(ToolContext& context, const Options& options) {
@@ -82,15 +94,24 @@ ExitCode run(ToolContext& context, const Options& options) {
     const Input<Skin> skin = read_scene_skin(context, scene);
     const Asset asset = bake(scene, level, object, skin.value);
 
+    context.detail(fmt::format("{} of {} tetrahedra, {} free nodes, {} elasticities", asset.tetrahedra.size(),
+                               object.mesh.tetrahedra.size(), asset.free_node_count, asset.palette.size()));
+    context.detail(to_text(choose_numerics(asset)));
+    const QualityReport quality = examine(asset);
+    say(context, quality);
+    if (options.strict && quality.warning_count() > 0) {
+        context.write_report(report(asset, quality, total.seconds()));
+        throw ToolError(
+            ExitCode::answer_is_no,
+            fmt::format("{}: not written, because of {} {} and --strict", options.output.string(),
+                        quality.warning_count(), quality.warning_count() == 1 ? "warning" : "warnings"));
+    }
+
     Provenance provenance = context.provenance({"--level=" + options.level});
     provenance.inputs = {{"scene", value_or_throw(sha256_of_file(options.scene))}, {"object", object_hash}};
     if (scene.embedding) provenance.inputs.emplace_back("embedding", skin.content_hash);
     value_or_throw(write_asset(options.output, asset, provenance));
-
-    context.detail(fmt::format("{} of {} tetrahedra, {} free nodes, {} elasticities", asset.tetrahedra.size(),
-                               object.mesh.tetrahedra.size(), asset.free_node_count, asset.palette.size()));
-    context.detail(to_text(choose_numerics(asset)));
-    context.write_report(report(asset, total.seconds()));
+    context.write_report(report(asset, quality, total.seconds()));
     return ExitCode::done;
 }
 

@@ -36,8 +36,10 @@ template <class T>
 T value_or_throw(Result<T> result) {
     if (result.ok()) return std::move(result).value();
     const Error& error = result.error();
-    const bool writing = error.code == ErrorCode::cannot_write;
-    throw ToolError(writing ? ExitCode::cannot_write : ExitCode::bad_input, error.text());
+    ExitCode code = ExitCode::bad_input;
+    if (error.code == ErrorCode::cannot_write) code = ExitCode::cannot_write;
+    if (error.code == ErrorCode::out_of_memory) code = ExitCode::no_valid_result;  // as of an std::bad_alloc
+    throw ToolError(code, error.text());
 }
 
 }  // namespace knead::tools

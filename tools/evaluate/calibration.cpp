@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "bake/surface.h"
 #include "common/error.h"
 #include "evaluate/loads.h"
 #include "evaluate/methods.h"
@@ -45,32 +46,36 @@ SurfaceRegion pad(const Box& object, std::size_t axis, bool high, const std::arr
     return region;
 }
 
-void add_grid(std::vector<SurfaceRegion>& pads, const Box& object, std::size_t axis, bool high, int cells) {
-    for (int i = 0; i < cells; ++i)
-        for (int j = 0; j < cells; ++j)
-            pads.push_back(pad(object, axis, high,
-                               {static_cast<double>(i) / cells, static_cast<double>(i + 1) / cells,
-                                static_cast<double>(j) / cells, static_cast<double>(j + 1) / cells}));
+struct PadSize {
+    int width = 0, height = 0;  // tenths of the face
+};
+constexpr PadSize kPadSizes[] = {{2, 3}, {3, 2}};
+constexpr int kTenths = 10;
+constexpr int kEvery = 2;  // of all columns one in so many, in turns for the two sizes
+
+void add_pads(std::vector<Load>& pads, const Box& object, std::size_t axis, bool high) {
+    int offset = 0;
+    for (const PadSize& size : kPadSizes) {
+        for (int i = 0; i + size.width <= kTenths; ++i)
+            for (int j = 0; j + size.height <= kTenths; ++j) {
+                if (i % kEvery != offset) continue;
+                Load load;
+                load.name = "probe";
+                load.region = pad(object, axis, high,
+                                  {i / 10.0, (i + size.width) / 10.0, j / 10.0, (j + size.height) / 10.0});
+                load.motion.translation_m[axis] = high ? -1 : 1;
+                load.felt_translation = load.motion.translation_m;
+                pads.push_back(load);
+            }
+        ++offset;
+    }
 }
 
-std::vector<SurfaceRegion> probe_pads(const Box& object) {
-    std::vector<SurfaceRegion> pads;
-    add_grid(pads, object, 2, true, 3);
-    add_grid(pads, object, 2, true, 4);
-    for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
-        for (const bool high : {false, true})
-            add_grid(pads, object, axis, high, 3);
-    return pads;
-}
-
-/// One newton into the object, evenly over the region. Empty when the region is held, or none.
-std::vector<double> push_of(const MeshedRegion& region, const Point& facing, const TetMesh& mesh) {
-    std::vector<double> push(3 * mesh.nodes_m.size(), 0);
-    for (std::size_t k = 0; k < region.nodes.size(); ++k)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            push[3 * std::size_t{region.nodes[k]} + axis] -=
-                facing[axis] * region.areas_m2[k] / region.area_m2;
-    return push;
+/// Which of five faces a pad is on.
+std::size_t face_of(const Load& pad) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (pad.region.facing[axis] != 0) return 2 * axis + (pad.region.facing[axis] > 0 ? 1 : 0);
+    return 0;
 }
 
 /// Twice the energy of a field in each tetrahedron, many fields at once: stiffnesses are made once.
@@ -99,6 +104,41 @@ class Energies {
     std::vector<Matrix12d> stiffness_;
 };
 
+/// What unit forces at the nodes of a face do to the whole body; from it, what a pad bonded on average does:
+/// constraints rows * u = motion, so u = S rows^T (rows S rows^T)^-1 motion with S the responses.
+class FaceResponses {
+  public:
+    FaceResponses(const FreeSystem& held, const std::vector<std::uint32_t>& nodes)
+        : nodes_(nodes), responses_(held.unit_force_responses(nodes)) {}
+
+    template <class Row>
+    [[nodiscard]] Eigen::VectorXd field_under(const std::vector<Row>& rows) const {
+        const auto count = static_cast<Eigen::Index>(3 * rows.size());
+        Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(responses_.rows(), count);  // S rows^T
+        for (std::size_t r = 0; r < rows.size(); ++r)
+            for (const auto& [node, weight] : rows[r].nodes)
+                moved.middleCols<3>(static_cast<Eigen::Index>(3 * r)) +=
+                    weight * responses_.middleCols<3>(column_of(node));
+        Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(count, count);
+        Eigen::VectorXd motion(count);
+        for (std::size_t r = 0; r < rows.size(); ++r) {
+            const auto at = static_cast<Eigen::Index>(3 * r);
+            for (const auto& [node, weight] : rows[r].nodes)
+                compliance.middleRows<3>(at) += weight * moved.middleRows<3>(first_unknown(node));
+            for (Eigen::Index axis = 0; axis < 3; ++axis)
+                motion[at + axis] = rows[r].motion_m[static_cast<std::size_t>(axis)];
+        }
+        return moved * compliance.ldlt().solve(motion);
+    }
+
+  private:
+    [[nodiscard]] Eigen::Index column_of(std::uint32_t node) const {
+        return 3 * (std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin());
+    }
+    const std::vector<std::uint32_t>& nodes_;
+    Eigen::MatrixXd responses_;
+};
+
 double sum_of(const std::vector<double>& values) {
     double sum = 0;
     for (const double value : values)
@@ -108,7 +148,8 @@ double sum_of(const std::vector<double>& values) {
 
 }  // namespace
 
-Probes::Probes(const TetMesh& mesh, const std::vector<bool>& is_held, const Box& object)
+Probes::Probes(const TetMesh& mesh, const std::vector<bool>& is_held, const Box& object,
+               const std::vector<Load>& pads)
     : mesh_(mesh), is_held_(unknowns_of(is_held)) {
     const MeshedRegion top = mesh_region(mesh, named_load("press10", object).region);
     std::vector<bool> is_tool = is_held;
@@ -135,11 +176,28 @@ Probes::Probes(const TetMesh& mesh, const std::vector<bool>& is_held, const Box&
         }
         motions_.push_back(std::move(motion));
     }
-    for (const SurfaceRegion& region : probe_pads(object)) {
-        const MeshedRegion meshed = mesh_region(mesh, region);
-        if (meshed.nodes.empty())
-            fail_result("calibration: the object has no surface where a probe should push");
-        pushes_.push_back(push_of(meshed, region.facing, mesh));
+    faces_.resize(6);
+    const std::vector<Triangle> outer = boundary_triangles(mesh.tetrahedra);
+    for (const Load& load : pads) {
+        const AppliedLoad applied = apply_load(load, mesh_region(mesh, outer, load.region), mesh, is_held);
+        Pad pad{face_of(load), {}};
+        const PrescribedMotion& motion = applied.motion;
+        for (std::size_t k = applied.held_count; k < motion.nodes.size(); ++k)
+            pad.rows.push_back({{{motion.nodes[k], 1.0}}, motion.displacement_m[k]});
+        for (const TiedNode& tie : motion.ties) {
+            Row row{{{tie.node, 1.0}}, tie.displacement_m};
+            for (const auto& [master, weight] : tie.masters)
+                if (!is_held[master]) row.nodes.emplace_back(master, -weight);
+            pad.rows.push_back(std::move(row));
+        }
+        for (const Row& row : pad.rows)
+            for (const auto& [node, weight] : row.nodes)
+                faces_[pad.face].push_back(node);
+        pads_.push_back(std::move(pad));
+    }
+    for (std::vector<std::uint32_t>& face : faces_) {
+        std::sort(face.begin(), face.end());
+        face.erase(std::unique(face.begin(), face.end()), face.end());
     }
 }
 
@@ -170,10 +228,53 @@ Probes::Answers Probes::ask(const Material& material, bool with_shares) const {
     }
     FreeSystem held(body, is_held_);
     factor(held);
-    for (const std::vector<double>& push : pushes_)
-        add(held.solve(vector_of(push)), -1);
+    for (std::size_t face = 0; face < faces_.size(); ++face) {
+        if (faces_[face].empty()) continue;
+        const FaceResponses responses(held, faces_[face]);
+        for (const Pad& pad : pads_)
+            if (pad.face == face) add(responses.field_under(pad.rows), 1);
+    }
     return answers;
 }
+
+std::vector<Load> probe_pads(const Box& object) {
+    std::vector<Load> pads;
+    // In the order of the faces.
+    add_pads(pads, object, 0, false);
+    add_pads(pads, object, 0, true);
+    add_pads(pads, object, 1, false);
+    add_pads(pads, object, 1, true);
+    add_pads(pads, object, 2, true);
+    return pads;
+}
+
+std::vector<bool> askable_pads(const std::vector<Load>& pads, const TetMesh& mesh,
+                               const std::vector<bool>& is_held) {
+    std::vector<bool> askable;
+    const std::vector<Triangle> outer = boundary_triangles(mesh.tetrahedra);
+    for (const Load& pad : pads) {
+        const MeshedRegion region = mesh_region(mesh, outer, pad.region);
+        askable.push_back(!region.nodes.empty() &&
+                          std::none_of(region.nodes.begin(), region.nodes.end(),
+                                       [&](std::uint32_t node) { return is_held[node]; }));
+    }
+    return askable;
+}
+
+namespace {
+
+std::vector<Load> common_pads(const Box& object, const TetMesh& fine, const std::vector<bool>& fine_is_held,
+                              const TetMesh& level, const std::vector<bool>& level_is_held) {
+    std::vector<Load> pads;
+    const std::vector<Load> all = probe_pads(object);
+    const std::vector<bool> on_fine = askable_pads(all, fine, fine_is_held);
+    const std::vector<bool> on_level = askable_pads(all, level, level_is_held);
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (on_fine[k] && on_level[k]) pads.push_back(all[k]);
+    return pads;
+}
+
+}  // namespace
 
 Calibration calibrate(const MaterialObject& fine, const std::vector<bool>& fine_is_held,
                       const LevelMesh& level, const std::vector<bool>& level_is_held,
@@ -182,9 +283,10 @@ Calibration calibrate(const MaterialObject& fine, const std::vector<bool>& fine_
     result.material = mean_material(MethodKind::voigt, fine, level);
     if (level.is_fine) return result;
     const Box object = bounding_box(fine.mesh.nodes_m);
+    const std::vector<Load> pads = common_pads(object, fine.mesh, fine_is_held, level.mesh, level_is_held);
     const std::vector<double> wanted =
-        Probes(fine.mesh, fine_is_held, object).ask(fine.material, false).values_j;
-    const Probes probes(level.mesh, level_is_held, object);
+        Probes(fine.mesh, fine_is_held, object, pads).ask(fine.material, false).values_j;
+    const Probes probes(level.mesh, level_is_held, object, pads);
     const auto [softest, stiffest] =
         std::minmax_element(fine.material.youngs_modulus_pa.begin(), fine.material.youngs_modulus_pa.end());
     const double low = options.lowest * *softest;
@@ -205,6 +307,10 @@ Calibration calibrate(const MaterialObject& fine, const std::vector<bool>& fine_
         Eigen::MatrixXd shares(count, elements);
         for (Eigen::Index k = 0; k < count; ++k)
             shares.row(k) = vector_of(answers.shares[static_cast<std::size_t>(k)]);
+        // The six motions of the whole top weigh as much as all pads together.
+        const double weight = std::sqrt(static_cast<double>(count - 6) / 6);
+        shares.topRows(6) *= weight;
+        missing.head(6) *= weight;
         Eigen::MatrixXd normal = shares * shares.transpose();
         normal.diagonal().array() += options.regularisation * normal.trace() / static_cast<double>(count);
         const Eigen::VectorXd change = shares.transpose() * normal.ldlt().solve(missing);

@@ -2,24 +2,17 @@
 #include "evaluate/cell.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <cmath>
-#include <system_error>
 
-#include "common/error.h"
 #include "evaluate/calibration.h"
 #include "evaluate/cell_json.h"
 #include "evaluate/numerical_coarsening.h"
 #include "evaluate/region_adapted.h"
-#include "knead/formats/hash.h"
-#include "knead/formats/write/write.h"
-#include "knead/runtime/step_result.h"
+#include "evaluate/runtime_cells.h"
 
 namespace knead::tools {
 namespace {
-
-constexpr int kLoadRepetitions = 5;
 
 double root_sum(const std::vector<Point>& values) {
     double sum = 0;
@@ -38,50 +31,6 @@ double displacement_error(const PreparedMesh& mesh, const StaticAnswer& answer,
         for (std::size_t axis = 0; axis < 3; ++axis)
             difference[k][axis] -= answer.displacement_m[mesh.outer[k]][axis];
     return root_sum(difference) / root_sum(wanted);
-}
-
-/// The runtime can be asked for the scene's tools, and for the press as long as its nodes are simply those of
-/// a tool.
-bool runtime_knows(const MeshLoad& load) {
-    if (load.press) return true;
-    return load.name == "press10" && load.applied.motion.ties.empty();
-}
-
-/// An asset with the load as its only tool, the direction and the way of the press.
-struct RuntimePress {
-    Asset asset;
-    Point direction{};
-    double way_m = 0;
-};
-
-RuntimePress runtime_press(const PreparedScene& scene, const PreparedMesh& mesh, const Material& material,
-                           const MeshLoad& load) {
-    RuntimePress press;
-    press.asset = bake_level(scene, {mesh.level.mesh, material});
-    press.asset.gravity_m_per_s2 = {};  // the static references know none
-    if (load.press) {
-        std::vector<ToolSet> tools;
-        for (const ToolSet& tool : press.asset.tools)
-            if (tool.name == load.press->tool.name) tools.push_back(tool);
-        press.asset.tools = tools;
-        press.direction = load.press->direction;
-        press.way_m = load.press->way_m;
-        return press;
-    }
-    replace_tools(press.asset, load.applied, mesh.level.mesh);
-    const Point& shift = load.applied.motion.displacement_m.back();
-    press.way_m = root_sum({shift});
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        press.direction[axis] = shift[axis] / press.way_m;
-    return press;
-}
-
-void ask_runtime(const CellTask& task, const CoarseObject& coarse, const MeshLoad& load, CellResult& cell) {
-    const RuntimePress press = runtime_press(*task.scene, *coarse.mesh, coarse.material, load);
-    const RuntimeRest rest = press_until_still(press.asset, 0, press.direction, press.way_m);
-    cell.runtime_force_n = rest.force_n;
-    if (!rest.is_still) cell.problem = "the runtime does not come to rest";
-    if (rest.status != kStepOk) cell.problem = fmt::format("the runtime's step status is {}", rest.status);
 }
 
 /// Calibration saw the loads that move the whole upper surface rigidly, whoever does it.
@@ -120,7 +69,8 @@ CellResult evaluate_cell(const CellTask& task, const CoarseObject& coarse, std::
     cell.force_n = answer.force_n;
     cell.force_error = answer.force_n / reference.force_n - 1;
     cell.displacement_error = displacement_error(*coarse.mesh, answer, reference);
-    if (coarse.runs_in_the_runtime() && runtime_knows(mesh_load)) ask_runtime(task, coarse, mesh_load, cell);
+    if (coarse.runs_in_the_runtime() && runtime_knows(mesh_load))
+        ask_runtime(*task.scene, coarse, mesh_load, cell);
     return cell;
 }
 
@@ -143,49 +93,6 @@ void make_region_adapted(const CellTask& task, CoarseObject& coarse) {
         std::make_shared<PreparedMesh>(prepare_mesh(*task.scene, std::move(mesh), false, loads));
     coarse.mesh = coarse.own_mesh.get();
     coarse.material = mean_material(MethodKind::voigt, task.object->fine, coarse.mesh->level);
-}
-
-/// A folder of its own that goes away again.
-class ScratchFolder {
-  public:
-    ScratchFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "knead-evaluate-XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr)
-            throw ToolError(ExitCode::cannot_write, pattern + ": cannot make a temporary folder");
-        folder_ = pattern;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    [[nodiscard]] std::filesystem::path file(const char* name) const { return folder_ / name; }
-
-  private:
-    std::filesystem::path folder_;
-};
-
-/// Force over time of the first load that the runtime can do.
-std::optional<CurveResult> curve_of(const PreparedScene& scene, const PreparedMesh& mesh,
-                                    const Material& material, const Method& method, std::uint64_t seed) {
-    for (const MeshLoad& load : mesh.loads) {
-        if (!runtime_knows(load)) continue;
-        const RuntimePress press = runtime_press(scene, mesh, material, load);
-        return CurveResult{name_of(method.kind),
-                           method.bins,
-                           method.clusters,
-                           mesh.level.mesh.tetrahedra.size(),
-                           seed,
-                           load.name,
-                           press_curve(press.asset, 0, press.direction, press.way_m)};
-    }
-    return std::nullopt;
-}
-
-/// What steps are timed under: the scene's first tool, pressed.
-ToolPress timed_press(const CellTask& task, const Asset& asset, const PreparedMesh& mesh) {
-    return tool_press(asset, 0, mesh.level.mesh, bounding_box(task.scene->fine.level.mesh.nodes_m));
 }
 
 }  // namespace
@@ -255,51 +162,6 @@ std::vector<CellResult> evaluate_cells(const CellTask& task, ReferenceKind kind,
         cells.push_back(std::move(cell));
     }
     return cells;
-}
-
-std::optional<CurveResult> evaluate_curve(const CellTask& task) {
-    const CoarseObject coarse = make_coarse_object(task);
-    if (!coarse.runs_in_the_runtime()) return std::nullopt;
-    return curve_of(*task.scene, *coarse.mesh, coarse.material, task.method, task.seed);
-}
-
-std::optional<CurveResult> reference_curve(const PreparedScene& scene, const EvaluatedObject& object,
-                                           std::uint64_t seed) {
-    auto curve = curve_of(scene, scene.fine, object.fine.material, {MethodKind::raw_dominant, 0, 0}, seed);
-    if (curve) curve->method = "reference";
-    return curve;
-}
-
-std::vector<AssetGroup> groups_in_asset(const PreparedScene& scene, const MaterialObject& object) {
-    const Asset asset = bake_level(scene, object);
-    const ScratchFolder scratch;
-    const auto file = scratch.file("asset.hdf");
-    value_or_throw(write_asset(file, asset, {}));
-    return asset_groups(asset, file);
-}
-
-void time_cells(const CellTask& task, int steps, const ResultCache& cache, std::vector<CellResult>& cells) {
-    const CoarseObject coarse = make_coarse_object(task);
-    if (!coarse.runs_in_the_runtime()) return;
-    const Asset asset = bake_level(*task.scene, {coarse.mesh->level.mesh, coarse.material});
-    const ScratchFolder scratch;
-    const auto file = scratch.file("asset.hdf");
-    value_or_throw(write_asset(file, asset, {}));
-    const std::string key = fmt::format("times\n{}\n{}", value_or_throw(sha256_of_file(file)), steps);
-    CellResult timed;
-    const auto kept = cache.find(key);
-    if (!kept || !times_from_cache(*kept, timed)) {
-        const ToolPress press = timed_press(task, asset, *coarse.mesh);
-        timed.asset_bytes = std::filesystem::file_size(file);
-        timed.load_ms = time_load_ms(file, kLoadRepetitions);
-        timed.step = time_steps(asset, 0, press.direction, press.way_m, steps);
-        cache.keep(key, times_to_cache(timed));
-    }
-    for (CellResult& cell : cells) {
-        cell.asset_bytes = timed.asset_bytes;
-        cell.load_ms = timed.load_ms;
-        cell.step = timed.step;
-    }
 }
 
 }  // namespace knead::tools

@@ -49,19 +49,4 @@ struct CoarseObject {
 [[nodiscard]] std::vector<CellResult> evaluate_cells(const CellTask& task, ReferenceKind kind,
                                                      const ResultCache& cache);
 
-/// Force over time of the first load that the runtime can do.
-[[nodiscard]] std::optional<CurveResult> evaluate_curve(const CellTask& task);
-
-/// The reference's force over time under the same load: the raw elasticities on the fine mesh, in the
-/// runtime.
-[[nodiscard]] std::optional<CurveResult> reference_curve(const PreparedScene& scene,
-                                                         const EvaluatedObject& object, std::uint64_t seed);
-
-/// What is in the asset of a material on a mesh.
-[[nodiscard]] std::vector<AssetGroup> groups_in_asset(const PreparedScene& scene,
-                                                      const MaterialObject& object);
-
-/// Fills step, load_ms and asset_bytes of the cells of a task, if the runtime can run it.
-void time_cells(const CellTask& task, int steps, const ResultCache& cache, std::vector<CellResult>& cells);
-
 }  // namespace knead::tools

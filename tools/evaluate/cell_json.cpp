@@ -10,9 +10,41 @@ Json step_json(const StepTimes& step) {
     return {{"p50", step.p50_us}, {"p99", step.p99_us}, {"p999", step.p999_us}, {"max", step.max_us}};
 }
 
+Json kept_step(const StepTimes& step) {
+    Json json = step_json(step);
+    json["steps"] = step.steps;
+    json["not_ok"] = step.not_ok;
+    return json;
+}
+
+StepTimes step_of(const Json& json) {
+    return {json.at("p50").get<double>(), json.at("p99").get<double>(), json.at("p999").get<double>(),
+            json.at("max").get<double>(), json.at("steps").get<int>(),  json.at("not_ok").get<int>()};
+}
+
 template <class T>
 Json or_null(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
+}
+
+void read_cell(const Json& json, CellResult& cell) {
+    cell.converged = json.at("converged").get<bool>();
+    cell.applicable = json.at("applicable").get<bool>();
+    cell.fitted = json.at("fitted").get<bool>();
+    cell.problem = json.at("problem").get<std::string>();
+    cell.tetrahedra = json.at("tets").get<std::uint64_t>();
+    cell.force_n = json.at("force_n").get<double>();
+    cell.reference_force_n = json.at("reference_force_n").get<double>();
+    cell.displacement_error = json.at("displacement_error").get<double>();
+    cell.force_error = cell.force_n / cell.reference_force_n - 1;
+    if (!json.at("runtime_force_n").is_null())
+        cell.runtime_force_n = json.at("runtime_force_n").get<double>();
+}
+
+void read_times(const Json& json, CellResult& cell) {
+    cell.load_ms = json.at("load_ms").get<double>();
+    cell.asset_bytes = json.at("asset_bytes").get<std::uint64_t>();
+    cell.step = step_of(json.at("step"));
 }
 
 }  // namespace
@@ -58,40 +90,60 @@ std::string to_cache(const CellResult& cell) {
 
 bool from_cache(const std::string& text, CellResult& cell) {
     const Json json = Json::parse(text, nullptr, false);
-    if (!json.is_object() || !json.contains("runtime_force_n")) return false;
-    cell.converged = json.at("converged").get<bool>();
-    cell.applicable = json.at("applicable").get<bool>();
-    cell.fitted = json.at("fitted").get<bool>();
-    cell.problem = json.at("problem").get<std::string>();
-    cell.tetrahedra = json.at("tets").get<std::uint64_t>();
-    cell.force_n = json.at("force_n").get<double>();
-    cell.reference_force_n = json.at("reference_force_n").get<double>();
-    cell.displacement_error = json.at("displacement_error").get<double>();
-    cell.force_error = cell.force_n / cell.reference_force_n - 1;
-    if (!json.at("runtime_force_n").is_null())
-        cell.runtime_force_n = json.at("runtime_force_n").get<double>();
-    return true;
+    if (!json.is_object()) return false;
+    try {
+        read_cell(json, cell);
+        return true;
+    } catch (const Json::exception&) {
+        return false;  // of another version of the program, or not ours
+    }
 }
 
 std::string times_to_cache(const CellResult& cell) {
     Json json{{"load_ms", or_null(cell.load_ms)}, {"asset_bytes", or_null(cell.asset_bytes)}};
-    if (cell.step) {
-        json["step"] = step_json(*cell.step);
-        json["not_ok"] = cell.step->not_ok;
-        json["steps"] = cell.step->steps;
-    }
+    if (cell.step) json["step"] = kept_step(*cell.step);
     return json.dump();
 }
 
 bool times_from_cache(const std::string& text, CellResult& cell) {
     const Json json = Json::parse(text, nullptr, false);
-    if (!json.is_object() || !json.contains("asset_bytes") || !json.contains("step")) return false;
-    cell.load_ms = json.at("load_ms").get<double>();
-    cell.asset_bytes = json.at("asset_bytes").get<std::uint64_t>();
-    const Json& step = json.at("step");
-    cell.step =
-        StepTimes{step.at("p50").get<double>(), step.at("p99").get<double>(), step.at("p999").get<double>(),
-                  step.at("max").get<double>(), json.at("steps").get<int>(),  json.at("not_ok").get<int>()};
+    if (!json.is_object()) return false;
+    try {
+        read_times(json, cell);
+        return true;
+    } catch (const Json::exception&) {
+        return false;
+    }
+}
+
+nlohmann::ordered_json to_json(const SpeedResult& speed) {
+    return {{"method", speed.method},
+            {"bins", speed.bins},
+            {"clusters", speed.clusters},
+            {"tets", speed.tetrahedra},
+            {"runtime_us", step_json(speed.times.runtime)},
+            {"baseline_us", step_json(speed.times.baseline)}};
+}
+
+std::string speed_to_cache(const SpeedPair& pair) {
+    return Json{{"runtime", kept_step(pair.runtime)}, {"baseline", kept_step(pair.baseline)}}.dump();
+}
+
+bool speed_from_cache(const std::string& text, SpeedPair& pair) {
+    const Json json = Json::parse(text, nullptr, false);
+    if (!json.is_object() || !json.contains("baseline")) return false;
+    pair = {step_of(json.at("runtime")), step_of(json.at("baseline"))};
+    return true;
+}
+
+std::string curve_to_cache(const ForceCurve& curve) {
+    return Json{{"time_s", curve.time_s}, {"force_n", curve.force_n}}.dump();
+}
+
+bool curve_from_cache(const std::string& text, ForceCurve& curve) {
+    const Json json = Json::parse(text, nullptr, false);
+    if (!json.is_object() || !json.contains("force_n")) return false;
+    curve = {json.at("time_s").get<std::vector<double>>(), json.at("force_n").get<std::vector<double>>()};
     return true;
 }
 

@@ -21,4 +21,11 @@ namespace knead::tools {
 [[nodiscard]] std::string times_to_cache(const CellResult& cell);
 [[nodiscard]] bool times_from_cache(const std::string& text, CellResult& cell);
 
+/// The same for runtime against baseline, and for curves.
+[[nodiscard]] nlohmann::ordered_json to_json(const SpeedResult& speed);
+[[nodiscard]] std::string speed_to_cache(const SpeedPair& pair);
+[[nodiscard]] bool speed_from_cache(const std::string& text, SpeedPair& pair);
+[[nodiscard]] std::string curve_to_cache(const ForceCurve& curve);
+[[nodiscard]] bool curve_from_cache(const std::string& text, ForceCurve& curve);
+
 }  // namespace knead::tools

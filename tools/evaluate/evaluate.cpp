@@ -11,8 +11,9 @@
 #include "common/error.h"
 #include "evaluate/bytes.h"
 #include "evaluate/cell.h"
-#include "evaluate/machine.h"
+#include "evaluate/pinned_thread.h"
 #include "evaluate/prepared_scene.h"
+#include "evaluate/runtime_cells.h"
 #include "knead/formats/hash.h"
 
 namespace knead::tools {
@@ -33,6 +34,7 @@ struct SceneRun {
     std::vector<CellTask> tasks;
     std::vector<std::vector<CellResult>> cells;      // [tasks][loads]
     std::vector<std::optional<CurveResult>> curves;  // [tasks]
+    std::vector<SpeedResult> speed;
 };
 
 /// Counts what is done over all threads.
@@ -148,6 +150,24 @@ void time_all(const std::vector<TaskPlace>& places, const EvaluationRequest& req
     }
 }
 
+/// Runtime against plain baseline, for the first object: its raw elasticities on the fine mesh, and on each
+/// coarser mesh the paper's method as the paper's Table 1 has it.
+void time_baseline(SceneRun& run, const EvaluationRequest& request, const ResultCache& cache) {
+    constexpr Method kRaw{MethodKind::raw_dominant, 0, 0};
+    constexpr Method kPaper{MethodKind::paper, 2, 3};
+    const PinnedThread pinned;
+    const EvaluatedObject* object = run.objects.begin()->second.get();
+    const auto time = [&](const PreparedMesh& mesh, const Method& method, const std::string& name) {
+        const CellTask task{&run.prepared, object, &mesh, method, request.seed_base};
+        if (auto speed = time_speed(task, name, request.timed_steps, cache))
+            run.speed.push_back(*std::move(speed));
+    };
+    time(run.prepared.fine, kRaw, "reference");
+    for (const PreparedMesh& level : run.prepared.levels)
+        if (level.level.mesh.tetrahedra.size() < run.prepared.fine.level.mesh.tetrahedra.size())
+            time(level, kPaper, name_of(kPaper.kind));
+}
+
 /// The states of the first object, by the first of the paper's methods asked for, on the coarsest mesh.
 void add_states(const SceneRun& run, const EvaluationRequest& request, SceneResult& result) {
     Method method{MethodKind::paper, 2, 3};
@@ -171,7 +191,7 @@ void note_once(SceneResult& result, const std::string& note) {
         result.notes.push_back(note);
 }
 
-SceneResult result_of(SceneRun& run, const EvaluationRequest& request) {
+SceneResult result_of(SceneRun& run, const EvaluationRequest& request, const ResultCache& cache) {
     SceneResult result;
     result.name = run.prepared.scene.name;
     result.reference_tetrahedra = run.prepared.reference.level.mesh.tetrahedra.size();
@@ -179,7 +199,8 @@ SceneResult result_of(SceneRun& run, const EvaluationRequest& request) {
     result.notes = run.prepared.notes;
     if (request.with_states) add_states(run, request, result);
     if (request.with_curves)
-        if (auto curve = reference_curve(run.prepared, *run.objects.begin()->second, request.seed_base))
+        if (auto curve =
+                reference_curve(run.prepared, *run.objects.begin()->second, request.seed_base, cache))
             result.curves.push_back(*std::move(curve));
     for (std::size_t load = 0; load < run.prepared.fine.loads.size(); ++load)
         for (const std::vector<CellResult>& cells : run.cells) {
@@ -191,6 +212,7 @@ SceneResult result_of(SceneRun& run, const EvaluationRequest& request) {
         }
     for (std::optional<CurveResult>& curve : run.curves)
         if (curve) result.curves.push_back(std::move(*curve));
+    result.speed = std::move(run.speed);
     return result;
 }
 
@@ -218,6 +240,7 @@ std::vector<SceneResult> evaluate(const EvaluationRequest& request, const Result
     if (request.timed_steps > 0)
         for (const TaskPlace& place : places)
             total += is_first_seed(place.run->tasks[place.task], request) ? 1 : 0;
+    if (request.timed_steps > 0 && request.with_baseline) total += runs.size();
     Counter counter(listener, total);
     in_parallel(references, [&](const ReferenceTask& task) {
         task.object->references[task.load] =
@@ -228,13 +251,20 @@ std::vector<SceneResult> evaluate(const EvaluationRequest& request, const Result
         const CellTask& task = place.run->tasks[place.task];
         place.run->cells[place.task] = evaluate_cells(task, request.reference, cache);
         if (request.with_curves && is_first_seed(task, request))
-            place.run->curves[place.task] = evaluate_curve(task);
+            place.run->curves[place.task] = evaluate_curve(task, cache);
         counter.did(task.scene->scene.name + " " + task.method.text());
     });
-    if (request.timed_steps > 0) time_all(places, request, cache, counter);
+    if (request.timed_steps > 0) {
+        time_all(places, request, cache, counter);
+        for (const auto& run : runs) {
+            if (!request.with_baseline) break;
+            time_baseline(*run, request, cache);
+            counter.did(run->prepared.scene.name + " baseline");
+        }
+    }
     std::vector<SceneResult> results;
     for (const auto& run : runs)
-        results.push_back(result_of(*run, request));
+        results.push_back(result_of(*run, request, cache));
     return results;
 }
 

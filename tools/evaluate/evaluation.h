@@ -13,6 +13,7 @@
 #include "evaluate/pictures.h"
 #include "evaluate/runtime_side.h"
 #include "evaluate/scene_object.h"
+#include "evaluate/speed.h"
 
 namespace knead::tools {
 
@@ -42,7 +43,8 @@ struct EvaluationRequest {
     ReferenceKind reference = ReferenceKind::fine;
     int timed_steps = 2000;  ///< of each asset; 0: no timing
     bool with_curves = false;
-    bool with_states = false;  ///< the object's states and what is in its asset, for the page
+    bool with_baseline = false;  ///< also time the plain baseline on the fine and the coarse meshes
+    bool with_states = false;    ///< the object's states and what is in its asset, for the page
     unsigned threads = 1;
 };
 
@@ -85,6 +87,7 @@ struct SceneResult {
     ReferenceKind reference = ReferenceKind::fine;
     std::vector<CellResult> cells;
     std::vector<CurveResult> curves;
+    std::vector<SpeedResult> speed;  ///< runtime and plain baseline, of the first seed
     std::vector<ObjectState> states;
     std::vector<AssetGroup> asset;
     std::vector<std::string> notes;  ///< what was left out, and why

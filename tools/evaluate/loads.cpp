@@ -234,7 +234,11 @@ Load named_load(const std::string& name, const Box& object) {
 }
 
 AppliedLoad apply_load(const Load& load, const TetMesh& mesh, const std::vector<bool>& is_held) {
-    const MeshedRegion region = mesh_region(mesh, load.region);
+    return apply_load(load, mesh_region(mesh, load.region), mesh, is_held);
+}
+
+AppliedLoad apply_load(const Load& load, const MeshedRegion& region, const TetMesh& mesh,
+                       const std::vector<bool>& is_held) {
     if (region.nodes.empty()) fail_input(fmt::format("load {}: the object has no surface there", load.name));
     AppliedLoad applied;
     for (std::uint32_t n = 0; n < is_held.size(); ++n)

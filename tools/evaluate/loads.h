@@ -57,6 +57,10 @@ struct AppliedLoad {
 /// @param is_held [nodes]
 /// @throws ToolError(bad_input) when the mesh has no such surface, or the tool touches held nodes
 [[nodiscard]] AppliedLoad apply_load(const Load& load, const TetMesh& mesh, const std::vector<bool>& is_held);
+/// The same where the region is known already.
+/// @param region mesh_region() of the load
+[[nodiscard]] AppliedLoad apply_load(const Load& load, const MeshedRegion& region, const TetMesh& mesh,
+                                     const std::vector<bool>& is_held);
 
 /// The felt force of a solution, newtons; positive when the object resists.
 [[nodiscard]] double felt_force_n(const AppliedLoad& load, const StaticSolution& solution);

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <fstream>
+#include <chrono>
+#include <cstdlib>
 #include <iostream>
-#include <iterator>
 
+#include "baseline/machine.h"
 #include "common/input.h"
 #include "common/progress.h"
 #include "common/run_tool.h"
 #include "common/stopwatch.h"
 #include "evaluate/html_report.h"
-#include "evaluate/machine.h"
+#include "evaluate/installed_files.h"
 #include "evaluate/options.h"
+#include "evaluate/paper/files.h"
+#include "evaluate/paper/run.h"
 #include "evaluate/tables.h"
 #include "knead/formats/hash.h"
 #include "knead/formats/version.h"
@@ -31,26 +36,16 @@ std::string program_hash() {
     return hash.ok() ? hash.value() : std::string(kLibraryVersion);
 }
 
-/// Asked for before any work is done: a build without npm has none.
-std::string page_template() {
-    const auto file = html_template_path(std::filesystem::read_symlink("/proc/self/exe"));
-    std::ifstream stream(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (text.empty())
-        fail_result(file.string() +
-                    ": the page is not there, so --html cannot be written: it is made by the target "
-                    "knead_report_page, which needs npm");
-    return text;
+constexpr const char* kDisagreement = "the runtime and the reference solver differ by more than 0.1 %: ";
+
+std::string today() {
+    return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::now()));
 }
 
-/// tools/evaluate/data/paper.json, beside the page.
-nlohmann::ordered_json papers_numbers() {
-    const auto file =
-        html_template_path(std::filesystem::read_symlink("/proc/self/exe")).replace_filename("paper.json");
-    std::ifstream stream(file);
-    auto json = nlohmann::ordered_json::parse(stream, nullptr, false);
-    if (!json.is_object()) fail_result(file.string() + ": the paper's numbers are not there");
-    return json;
+/// On a terminal, unless the user says otherwise (no-color.org).
+bool colours_wanted() {
+    const char* const no_colour = std::getenv("NO_COLOR");
+    return isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
 }
 
 std::string command_line(const std::vector<std::string>& arguments) {
@@ -72,7 +67,19 @@ std::vector<SceneResult> run_evaluation(ToolContext& context, const EvaluateOpti
     };
     for (const auto& scene : request.scenes)
         context.add_input(scene);
-    return evaluate(request, cache, read, listener);
+    const auto& all = options.paper.empty() ? evaluate : evaluate_paper;
+    return all(request, cache, read, listener);
+}
+
+/// The paper's tables instead of ours.
+ExitCode show_paper(ToolContext& context, const EvaluateOptions& options,
+                    const std::vector<SceneResult>& scenes, const PaperRun& about) {
+    const PaperSummary summary = write_paper(options.paper, scenes, about);
+    const std::string wrong = disagreements(scenes);
+    if (!wrong.empty()) fail_result(kDisagreement + wrong);
+    std::cout << as_text(paper_document(summary, about), colours_wanted());
+    if (!summary.rows_are_ok()) context.tell("a reference or homogenised row is not what is expected");
+    return summary.rows_are_ok() ? ExitCode::done : ExitCode::answer_is_no;
 }
 
 ExitCode run(ToolContext& context, const EvaluateOptions& options,
@@ -80,9 +87,21 @@ ExitCode run(ToolContext& context, const EvaluateOptions& options,
     const Stopwatch watch;
     const std::optional<double> limit = fail_above_of(options);
     if (!options.json.empty()) context.set_output(options.json);
-    const std::string page = options.html.empty() ? std::string() : page_template();
-    const Machine machine = describe_machine();
+    const std::string page = options.html.empty() ? std::string() : required_page_template();
+    const baseline::Machine machine = baseline::describe_machine();
+    if (options.stability.wanted) {
+        if (!options.scenes.empty()) fail_usage("--stability has objects of its own and takes no SCENE");
+        return stability::run_stability(
+            context, options.stability,
+            {{{"cpu", machine.cpu}, {"compiler", machine.compiler}, {"os", machine.os}},
+             KNEAD_COMMIT,
+             command_line(arguments)},
+            options.json);
+    }
     const std::vector<SceneResult> scenes = run_evaluation(context, options);
+    if (!options.paper.empty())
+        return show_paper(context, options, scenes,
+                          {machine, KNEAD_COMMIT, command_line(arguments), today(), watch.seconds()});
     auto json = json_report(scenes, machine, KNEAD_COMMIT, command_line(arguments));
     if (options.beside_paper) json["paper"] = papers_numbers();
     if (!options.json.empty()) value_or_throw(write_text_file(options.json, json.dump() + "\n"));
@@ -97,8 +116,7 @@ ExitCode run(ToolContext& context, const EvaluateOptions& options,
     if (limit) report["above"] = above;
     context.write_report(report.dump(2) + "\n");
     const std::string wrong = disagreements(scenes);
-    if (!wrong.empty())
-        fail_result("the runtime and the reference solver differ by more than 0.1 %: " + wrong);
+    if (!wrong.empty()) fail_result(kDisagreement + wrong);
     std::cout << text_report(scenes);
     if (limit && above > 0)
         context.tell(

@@ -53,7 +53,7 @@ std::vector<Method> methods_of(const EvaluateOptions& options) {
 }  // namespace
 
 void declare_options(CLI::App& app, EvaluateOptions& options) {
-    app.add_option("SCENE", options.scenes, "scene files (TOML)")->required()->group("Inputs");
+    app.add_option("SCENE", options.scenes, "scene files (TOML)")->group("Inputs");
     app.add_option("--methods", options.methods, fmt::format("methods: {}", fmt::join(method_names(), ", ")))
         ->delimiter(',')
         ->capture_default_str()
@@ -111,15 +111,27 @@ void declare_options(CLI::App& app, EvaluateOptions& options) {
         app.add_option("--cache", options.cache,
                        "folder in which results are kept [the user's cache folder, knead/evaluate]");
     cache->type_name("FOLDER");
+    auto* paper = app.add_option("--paper", options.paper,
+                                 "the paper's evaluation of its scenes (scenario1 to scenario9, steak): "
+                                 "tables beside the paper's, into "
+                                 "this folder");
+    paper->type_name("FOLDER");
+    for (const char* other :
+         {"--methods", "--bins", "--clusters", "--levels", "--loads", "--reference", "--curves", "--states",
+          "--beside-paper", "--html", "--json", "--csv", "--fail-above"})
+        paper->excludes(other);
     app.add_flag("--no-cache", options.no_cache, "keep nothing, use nothing kept")->excludes(cache);
+    stability::declare_options(app, options.stability);
 }
 
 EvaluationRequest request_of(const EvaluateOptions& options, unsigned threads) {
+    if (options.scenes.empty()) fail_usage("SCENE is required (or --stability)");
     for (const std::string& load : options.loads)
         check_load(load);
     if (options.seeds == 0) fail_usage("--seeds 0: nothing would be evaluated; at least one is needed");
     for (const auto& file : {options.json, options.csv, options.html})
         if (!file.empty()) require_writable_folder(file);
+    if (!options.paper.empty()) require_writable_folder(options.paper / "paper.json");
     EvaluationRequest request;
     request.scenes = options.scenes;
     request.methods = methods_of(options);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "evaluate/evaluation.h"
+#include "stability/options.h"
 
 namespace knead::tools {
 
@@ -31,9 +32,11 @@ struct EvaluateOptions {
     std::filesystem::path json;
     std::filesystem::path csv;
     std::filesystem::path html;
+    std::filesystem::path paper;  ///< folder for the paper's evaluation
     std::string fail_above;
     std::filesystem::path cache;
     bool no_cache = false;
+    stability::StabilityOptions stability;
 };
 
 void declare_options(CLI::App& app, EvaluateOptions& options);

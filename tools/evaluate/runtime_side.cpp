@@ -2,10 +2,8 @@
 #include "evaluate/runtime_side.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "common/error.h"
@@ -22,26 +20,15 @@ constexpr int kLargestHoldSteps = 1500;
 /// 1e-4; what still moves at this rate changes it by about 1e-6.
 constexpr double kStillPerSecond = 1e-6;
 
-constexpr double kDtS = 1e-3;
-constexpr double kSpeedMPerS = 0.1;
-constexpr int kStepsOfAPress = 250;
-constexpr int kWarmUpSteps = 50;
-constexpr double kTremorHz = 10;
-constexpr double kTremorM = 0.3e-3;
-constexpr double kSideTremorM = 0.1e-3;
-constexpr double kSideTremorHz = 8.5;
-/// Radians between the tremors of one press and the next: no two alike.
-constexpr double kPhaseStep = 2.4;
-
 // Figure 8 of the paper.
 constexpr double kCurveRampS = 15;
 constexpr double kCurveHoldS = 5;
 constexpr int kStepsBetweenPoints = 10;
 
-Simulation simulation_of(const Asset& asset, std::size_t tool, double expected_dt_s) {
+Simulation simulation_of(const Asset& asset, std::size_t tool) {
     SimulationConfig config;
     config.tools = {tool};
-    config.expected_dt_s = expected_dt_s;
+    config.expected_dt_s = kRestDtS;
     Result<Simulation> created = Simulation::create(asset, config);
     if (!created.ok()) fail_result("the runtime refuses the asset: " + created.error().text());
     return std::move(created).value();
@@ -77,28 +64,12 @@ double largest_change_m(const double* positions_m, std::vector<double>& before_m
     return largest;
 }
 
-/// A direction across the press.
-Point sideways(const Point& direction) {
-    return std::abs(direction[0]) < 0.9 ? Point{1, 0, 0} : Point{0, 1, 0};
-}
-
-double tremor(double amplitude_m, double frequency_hz, double time_s, double phase_rad) {
-    const double angle = 2 * std::numbers::pi * frequency_hz * time_s;
-    return amplitude_m * (std::sin(angle + phase_rad) - std::sin(phase_rad));
-}
-
-/// Nearest rank: the smallest value that at least the share of all values does not exceed.
-double percentile(const std::vector<double>& increasing, double share) {
-    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(increasing.size())));
-    return increasing[std::max<std::size_t>(rank, 1) - 1];
-}
-
 using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
 RuntimeRest press_until_still(const Asset& asset, std::size_t tool, const Point& direction, double way_m) {
-    Simulation simulation = simulation_of(asset, tool, kRestDtS);
+    Simulation simulation = simulation_of(asset, tool);
     const Pose rest = simulation.tool_rest_pose(0);
     const double still_m = kStillPerSecond * size_m(asset) * kRestDtS;
     RuntimeRest result;
@@ -115,7 +86,7 @@ RuntimeRest press_until_still(const Asset& asset, std::size_t tool, const Point&
 }
 
 ForceCurve press_curve(const Asset& asset, std::size_t tool, const Point& direction, double way_m) {
-    Simulation simulation = simulation_of(asset, tool, kRestDtS);
+    Simulation simulation = simulation_of(asset, tool);
     const Pose rest = simulation.tool_rest_pose(0);
     ForceCurve curve;
     const int steps = static_cast<int>(std::lround((kCurveRampS + kCurveHoldS) / kRestDtS));
@@ -128,37 +99,6 @@ ForceCurve press_curve(const Asset& asset, std::size_t tool, const Point& direct
         curve.force_n.push_back(resistance_n(step.force_n, direction));
     }
     return curve;
-}
-
-StepTimes time_steps(const Asset& asset, std::size_t tool, const Point& direction, double way_m, int steps) {
-    Simulation simulation = simulation_of(asset, tool, kDtS);
-    const Pose rest = simulation.tool_rest_pose(0);
-    const Point side = sideways(direction);
-    std::vector<double> us;
-    us.reserve(static_cast<std::size_t>(steps));
-    StepTimes times;
-    for (int k = 0; k < steps + kWarmUpSteps; ++k) {
-        const int in_press = k % kStepsOfAPress;
-        const double phase = kPhaseStep * (k / kStepsOfAPress);
-        if (in_press == 0) simulation.reset();
-        const double time_s = (in_press + 1) * kDtS;
-        Pose pose = moved(rest, direction,
-                          std::min(way_m, kSpeedMPerS * time_s) - tremor(kTremorM, kTremorHz, time_s, phase));
-        pose = moved(pose, side, tremor(kSideTremorM, kSideTremorHz, time_s, phase));
-        const auto from = Clock::now();
-        const StepResult step = simulation.step(pose, kDtS);
-        const double took_us = std::chrono::duration<double, std::micro>(Clock::now() - from).count();
-        if (k < kWarmUpSteps) continue;
-        us.push_back(took_us);
-        times.not_ok += step.status == kStepOk ? 0 : 1;
-    }
-    std::sort(us.begin(), us.end());
-    times.p50_us = percentile(us, 0.5);
-    times.p99_us = percentile(us, 0.99);
-    times.p999_us = percentile(us, 0.999);
-    times.max_us = us.back();
-    times.steps = steps;
-    return times;
 }
 
 double time_load_ms(const std::filesystem::path& asset_file, int repetitions) {

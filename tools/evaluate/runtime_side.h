@@ -29,18 +29,6 @@ struct ForceCurve {
 [[nodiscard]] ForceCurve press_curve(const Asset& asset, std::size_t tool, const Point& direction,
                                      double way_m);
 
-/// Microseconds of one step, nearest rank.
-struct StepTimes {
-    double p50_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
-    int steps = 0;
-    int not_ok = 0;  ///< steps whose status was not ok
-};
-
-/// Times single steps of 1 ms under a press with a hand's tremor (10 Hz, 0.3 mm along the press, a third of
-/// it sideways), from rest again every 250 steps; the first 50 steps warm the caches and are not counted.
-[[nodiscard]] StepTimes time_steps(const Asset& asset, std::size_t tool, const Point& direction, double way_m,
-                                   int steps);
-
 /// Median of `repetitions` loads from a file, milliseconds.
 [[nodiscard]] double time_load_ms(const std::filesystem::path& asset_file, int repetitions);
 

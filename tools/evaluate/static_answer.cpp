@@ -2,6 +2,7 @@
 #include "evaluate/static_answer.h"
 
 #include <cstring>
+#include <limits>
 
 #include "common/error.h"
 #include "evaluate/bytes.h"
@@ -123,14 +124,17 @@ std::optional<StaticAnswer> answer_of(const std::string& bytes) {
     double head[4];
     if (bytes.size() < sizeof head) return std::nullopt;
     std::memcpy(head, bytes.data(), sizeof head);
+    const auto most = static_cast<double>((bytes.size() - sizeof head) / sizeof(Point));
+    if (!(head[2] >= 0 && head[2] <= std::numeric_limits<int>::max()) || !(head[3] >= 0 && head[3] <= most))
+        return std::nullopt;
     StaticAnswer answer;
     answer.converged = head[0] != 0;
     answer.force_n = head[1];
     answer.linear_solves = static_cast<int>(head[2]);
     const auto nodes = static_cast<std::size_t>(head[3]);
-    if ((bytes.size() - sizeof head) / sizeof(Point) < nodes) return std::nullopt;
     answer.displacement_m.resize(nodes);
-    std::memcpy(answer.displacement_m.data(), bytes.data() + sizeof head, nodes * sizeof(Point));
+    if (nodes > 0)
+        std::memcpy(answer.displacement_m.data(), bytes.data() + sizeof head, nodes * sizeof(Point));
     answer.problem = bytes.substr(sizeof head + nodes * sizeof(Point));
     return answer;
 }

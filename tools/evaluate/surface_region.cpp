@@ -93,9 +93,10 @@ struct CoveredTriangle {
     Integrals integrals;
 };
 
-std::vector<CoveredTriangle> covered_triangles(const TetMesh& mesh, const SurfaceRegion& region) {
+std::vector<CoveredTriangle> covered_triangles(const TetMesh& mesh, const std::vector<Triangle>& outer,
+                                               const SurfaceRegion& region) {
     std::vector<CoveredTriangle> covered;
-    for (const Triangle& triangle : boundary_triangles(mesh.tetrahedra)) {
+    for (const Triangle& triangle : outer) {
         std::vector<Corner> polygon;
         for (int k = 0; k < 3; ++k)
             polygon.push_back(
@@ -122,7 +123,12 @@ Box bounding_box(const std::vector<Point>& nodes_m) {
 }
 
 MeshedRegion mesh_region(const TetMesh& mesh, const SurfaceRegion& region) {
-    const std::vector<CoveredTriangle> covered = covered_triangles(mesh, region);
+    return mesh_region(mesh, boundary_triangles(mesh.tetrahedra), region);
+}
+
+MeshedRegion mesh_region(const TetMesh& mesh, const std::vector<Triangle>& outer,
+                         const SurfaceRegion& region) {
+    const std::vector<CoveredTriangle> covered = covered_triangles(mesh, outer, region);
     std::map<std::uint32_t, std::size_t> position;
     for (const CoveredTriangle& triangle : covered)
         for (const std::uint32_t node : triangle.nodes)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bake/surface.h"
 #include "knead/formats/tet_mesh.h"
 
 namespace knead::tools {
@@ -42,5 +43,9 @@ struct MeshedRegion {
 /// Triangles that are covered in part are cut along the sides of the box, so that the area is the region's
 /// own and does not depend on where the mesh happens to have nodes.
 [[nodiscard]] MeshedRegion mesh_region(const TetMesh& mesh, const SurfaceRegion& region);
+/// The same for many regions of one mesh.
+/// @param outer boundary_triangles() of the mesh
+[[nodiscard]] MeshedRegion mesh_region(const TetMesh& mesh, const std::vector<Triangle>& outer,
+                                       const SurfaceRegion& region);
 
 }  // namespace knead::tools

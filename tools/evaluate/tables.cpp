@@ -124,7 +124,7 @@ std::string text_report(const std::vector<SceneResult>& scenes) {
     return text;
 }
 
-nlohmann::ordered_json json_report(const std::vector<SceneResult>& scenes, const Machine& machine,
+nlohmann::ordered_json json_report(const std::vector<SceneResult>& scenes, const baseline::Machine& machine,
                                    const std::string& commit, const std::string& command) {
     Json json;
     json["schema"] = "knead-evaluation/1";
@@ -152,6 +152,8 @@ nlohmann::ordered_json json_report(const std::vector<SceneResult>& scenes, const
                                      {"load", curve.load},
                                      {"time_s", curve.curve.time_s},
                                      {"force_n", curve.curve.force_n}});
+        for (const SpeedResult& speed : scene.speed)
+            one["speed"].push_back(to_json(speed));
         for (const ObjectState& state : scene.states)
             one["states"].push_back(state_json(state));
         for (const AssetGroup& group : scene.asset)

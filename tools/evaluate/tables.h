@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "baseline/machine.h"
 #include "evaluate/evaluation.h"
-#include "evaluate/machine.h"
 
 namespace knead::tools {
 
@@ -32,7 +32,7 @@ struct Spread {
 
 /// The report, schema "knead-evaluation/1" (docs/evaluation.md).
 [[nodiscard]] nlohmann::ordered_json json_report(const std::vector<SceneResult>& scenes,
-                                                 const Machine& machine, const std::string& commit,
+                                                 const baseline::Machine& machine, const std::string& commit,
                                                  const std::string& command);
 
 /// One line for each result, with a header.

@@ -2,6 +2,7 @@
 #include "knead/build.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -23,11 +24,24 @@ ExitCode exit_code_of(int status) {
     return ExitCode::bug;
 }
 
+struct RemovedAtTheEnd {
+    std::filesystem::path file;
+    explicit RemovedAtTheEnd(std::filesystem::path name) : file(std::move(name)) {}
+    RemovedAtTheEnd(const RemovedAtTheEnd&) = delete;
+    RemovedAtTheEnd& operator=(const RemovedAtTheEnd&) = delete;
+    ~RemovedAtTheEnd() {
+        std::error_code ignored;
+        std::filesystem::remove(file, ignored);
+    }
+};
+
 /// Runs one stage. @return the files that it read
 std::vector<std::filesystem::path> run_stage(const Stage& stage, const std::filesystem::path& program,
                                              const BuildOptions& options, const BuildListener& listener) {
-    auto depfile = stage.output;
-    depfile += ".d";
+    // A name of this process: another build of the same folder has its own.
+    const auto depfile =
+        stage.output.parent_path() / fmt::format(".{}.{}.d", stage.output.filename().string(), getpid());
+    const RemovedAtTheEnd cleaner{depfile};
     std::vector<std::string> arguments = stage.arguments;
     arguments.insert(arguments.end(), {"--depfile", depfile.string()});
     if (stage.threaded) arguments.insert(arguments.end(), {"--threads", std::to_string(options.threads)});
@@ -39,10 +53,7 @@ std::vector<std::filesystem::path> run_stage(const Stage& stage, const std::file
     if (status != 0)
         throw ToolError(exit_code_of(status), fmt::format("{} failed with exit code {} while making {}",
                                                           stage.tool, status, stage.output.string()));
-    auto files = read_depfile(depfile);
-    std::error_code ignored;
-    std::filesystem::remove(depfile, ignored);
-    return files;
+    return read_depfile(depfile);
 }
 
 void collect_sources(const Plan& plan, const std::vector<std::filesystem::path>& files, BuildResult& result) {

@@ -13,6 +13,7 @@
 namespace knead::tools {
 namespace {
 
+constexpr const char* kFile = ".knead-build.json";
 constexpr const char* kSchema = "knead-build/1";
 
 /// The hash that decides whether a file changed: of the payload for Knead's own files, of the bytes for
@@ -29,12 +30,18 @@ std::string hash_of(const std::filesystem::path& file) {
 }  // namespace
 
 BuildState BuildState::load(const std::filesystem::path& folder) {
+    std::ifstream stream(folder / kFile, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    return parse(text, folder);
+}
+
+BuildState BuildState::parse(std::string_view text, const std::filesystem::path& folder) {
     BuildState state;
-    state.file_ = folder / ".knead-build.json";
-    std::ifstream stream(state.file_);
-    const auto json = nlohmann::json::parse(stream, nullptr, false);
-    if (!json.is_object() || json.value("schema", "") != kSchema) return state;
+    state.file_ = folder / kFile;
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    if (!json.is_object()) return state;
     try {
+        if (json.value("schema", "") != kSchema) return state;
         for (const auto& [output, stage] : json.at("stages").items()) {
             Entry entry;
             entry.command_hash = stage.at("command");
@@ -57,7 +64,9 @@ void BuildState::save() const {
         json["stages"][output] = {{"command", entry.command_hash},
                                   {"output", entry.output_hash},
                                   {"dependencies", entry.dependencies}};
-    value_or_throw(write_text_file(file_, json.dump(1) + "\n"));
+    // A file name need not be UTF-8; as it then reads back as another name, that stage is made again.
+    value_or_throw(
+        write_text_file(file_, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"));
 }
 
 std::string BuildState::command_hash(const Stage& stage, const std::filesystem::path& program) {
@@ -100,8 +109,12 @@ std::vector<std::filesystem::path> BuildState::dependencies(const Stage& stage) 
 }
 
 std::vector<std::filesystem::path> read_depfile(const std::filesystem::path& file) {
-    std::ifstream stream(file);
+    std::ifstream stream(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    return parse_depfile(text, file.string());
+}
+
+std::vector<std::filesystem::path> parse_depfile(std::string_view text, const std::string& name) {
     std::vector<std::string> words(1);
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
@@ -117,8 +130,7 @@ std::vector<std::filesystem::path> read_depfile(const std::filesystem::path& fil
             words.back() += c;
         }
     }
-    if (words.front().empty() || words.front().back() != ':')
-        fail_input(file.string() + ": not a dependency file");
+    if (words.front().empty() || words.front().back() != ':') fail_input(name + ": not a dependency file");
     std::vector<std::filesystem::path> files;
     for (std::size_t i = 1; i < words.size(); ++i)
         if (!words[i].empty()) files.emplace_back(words[i]);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "knead/plan.h"
@@ -17,6 +18,8 @@ class BuildState {
   public:
     /// A missing or unreadable state is an empty one.
     static BuildState load(const std::filesystem::path& folder);
+    /// The same of the text of its file.
+    static BuildState parse(std::string_view text, const std::filesystem::path& folder);
     void save() const;
 
     /// True when running `stage` with `program` would make the file that is there already.
@@ -46,5 +49,8 @@ class BuildState {
 /// The prerequisites of a Makefile-style dependency file with one rule, unescaped.
 /// Throws ToolError(bad_input) when it is not such a file.
 [[nodiscard]] std::vector<std::filesystem::path> read_depfile(const std::filesystem::path& file);
+/// The same of a text; `name` stands in messages.
+[[nodiscard]] std::vector<std::filesystem::path> parse_depfile(std::string_view text,
+                                                               const std::string& name);
 
 }  // namespace knead::tools

@@ -1,55 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "common/progress.h"
 #include "common/run_tool.h"
+#include "knead/asset_gate.h"
 #include "knead/build.h"
+#include "knead/build_report.h"
 #include "knead/formats/write/write.h"
+#include "knead/options.h"
+#include "quality/report_text.h"
 
 namespace {
 
 using namespace knead;
 using namespace knead::tools;
-
-struct Options {
-    std::filesystem::path scene;
-    std::filesystem::path folder;
-    std::filesystem::path asset;
-    std::vector<std::string> levels;
-    bool force = false;
-    bool dry_run = false;
-};
-
-void declare(CLI::App& app, Options& options) {
-    app.require_subcommand(1);
-    CLI::App* build = app.add_subcommand("build", "run the tools that a scene needs, from mesh to assets");
-    build->fallthrough();
-    build->add_option("SCENE", options.scene, "scene file (TOML)")->required();
-    build->add_option("-o,--output", options.folder, "folder for everything that is made; created if missing")
-        ->required();
-    build->add_option("-l,--level", options.levels, "only this level; may be given again [all]")
-        ->type_name("NAME");
-    build->add_option("--asset", options.asset, "also put the asset here (with exactly one level)")
-        ->type_name("FILE");
-    build->add_flag("--force", options.force, "run every tool, also where its output is up to date");
-    build->add_flag("--dry-run", options.dry_run, "print the commands of the tools and run none");
-}
-
-void print_commands(const Plan& plan) {
-    for (const Stage& stage : plan.stages) {
-        std::cout << stage.tool;
-        for (const std::string& argument : stage.arguments) {
-            const bool plain =
-                argument.find_first_of(" '\"$*?()&;<>|\\") == std::string::npos && !argument.empty();
-            std::cout << ' ' << (plain ? argument : "'" + argument + "'");
-        }
-        std::cout << '\n';
-    }
-}
 
 BuildListener listener_for(const ToolContext& context, Progress& progress, std::size_t total) {
     BuildListener listener;
@@ -85,17 +53,35 @@ void copy_asset(const PlannedAsset& asset, const std::filesystem::path& target) 
     throw ToolError(ExitCode::cannot_write, target.string() + ": " + error.message());
 }
 
-std::string report(const Plan& plan, const BuildResult& result) {
-    nlohmann::ordered_json json;
-    json["schema"] = "knead-build-report/1";
-    for (const StageOutcome& outcome : result.outcomes)
-        json["stages"].push_back({{"tool", outcome.stage->tool},
-                                  {"output", outcome.stage->output.string()},
-                                  {"made", outcome.made},
-                                  {"seconds", outcome.seconds}});
-    for (const PlannedAsset& asset : plan.assets)
-        json["assets"].push_back({{"level", asset.level}, {"file", asset.file.string()}});
-    return json.dump(2) + "\n";
+/// Looks at what was made and says what its maker should know. What the tools have said is not said again.
+std::vector<GatedAsset> gate(const ToolContext& context, const BuildOptionsGiven& options, const Scene& scene,
+                             const Plan& plan, const BuildResult& result) {
+    const auto was_made = [&](const PlannedAsset& asset) {
+        return std::any_of(result.outcomes.begin(), result.outcomes.end(), [&](const StageOutcome& outcome) {
+            return outcome.made && outcome.stage->output == asset.file;
+        });
+    };
+    WhenToCheck check = WhenToCheck::automatic;
+    if (options.check) check = WhenToCheck::always;
+    if (options.no_check) check = WhenToCheck::never;
+    const bool everything = options.strict || options.check;
+    std::vector<GatedAsset> gated = gate_assets(
+        scene, plan, check, [&](const PlannedAsset& asset) { return everything || was_made(asset); });
+    for (const GatedAsset& asset : gated) {
+        const std::string name = asset.asset->file.filename().string();
+        context.tell(summary(name, asset));
+        const std::size_t told = was_made(*asset.asset) ? asset.report.findings.size() : 0;
+        for (std::size_t k = told; k < asset.findings.size(); ++k) {
+            const std::string text = name + ": " + to_text(asset.findings[k]);
+            if (asset.findings[k].warning)
+                context.warn(text);
+            else if (asset.findings[k].id == "level-unchecked")
+                context.tell(text);
+            else
+                context.detail(text);
+        }
+    }
+    return gated;
 }
 
 void require_folder(const std::filesystem::path& folder) {
@@ -106,14 +92,26 @@ void require_folder(const std::filesystem::path& folder) {
                                                     (error ? ": " + error.message() : std::string()));
 }
 
-ExitCode run(ToolContext& context, const Options& options) {
+void refuse_warnings(const ToolContext& context, const BuildResult& result,
+                     const std::vector<GatedAsset>& gated) {
+    std::size_t warnings = 0;
+    for (const GatedAsset& asset : gated)
+        warnings += asset.warning_count();
+    if (warnings == 0) return;
+    context.write_report(build_report(result, gated));
+    throw ToolError(ExitCode::answer_is_no,
+                    fmt::format("{} {}, with --strict", warnings, warnings == 1 ? "warning" : "warnings"));
+}
+
+ExitCode run(ToolContext& context, const BuildOptionsGiven& options) {
     const Scene scene = read_scene(options.scene);
     const Plan plan = plan_build(scene, options.levels, options.folder);
     if (!options.asset.empty() && plan.assets.size() != 1)
         fail_usage(fmt::format("--asset needs exactly one level, and this build has {}: add --level NAME",
                                plan.assets.size()));
     if (options.dry_run) {
-        print_commands(plan);
+        for (const Stage& stage : plan.stages)
+            std::cout << command_line(stage) << '\n';
         return ExitCode::done;
     }
     require_folder(options.folder);
@@ -123,12 +121,14 @@ ExitCode run(ToolContext& context, const Options& options) {
     const BuildResult result =
         run_build(plan, options.folder, {context.threads, options.force, context.verbose},
                   listener_for(context, progress, plan.stages.size()));
+    const std::vector<GatedAsset> gated = gate(context, options, scene, plan, result);
+    if (options.strict) refuse_warnings(context, result, gated);
     if (!options.asset.empty()) copy_asset(plan.assets.front(), options.asset);
 
     for (const auto& source : result.sources)
         context.add_input(source);
     context.set_output(options.asset.empty() ? plan.assets.front().file : options.asset);
-    context.write_report(report(plan, result));
+    context.write_report(build_report(result, gated));
     for (const PlannedAsset& asset : plan.assets)
         std::cout << asset.file.string() << '\n';
     return ExitCode::done;
@@ -137,13 +137,13 @@ ExitCode run(ToolContext& context, const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    Options options;
+    BuildOptionsGiven options;
     ToolInfo info;
     info.name = "knead";
     info.purpose = "bake heterogeneous soft objects for haptic interaction, from one scene file.";
     info.example = "knead build examples/steak/steak.toml -o build/steak";
     info.uses_threads = true;
     return run_tool(
-        argc, argv, info, [&](CLI::App& app) { declare(app, options); },
+        argc, argv, info, [&](CLI::App& app) { declare_options(app, options); },
         [&](ToolContext& context) { return run(context, options); });
 }

@@ -78,6 +78,7 @@ class Planner {
         const auto mesh = add("knead-mesh", mesh_arguments(scene_.mesh), "mesh");
         const auto material =
             add("knead-material", with_input(mesh, material_arguments(scene_.material)), "material");
+        plan_.fine_object = material;
         for (const Level& level : scene_.levels)
             if (levels.empty() || std::find(levels.begin(), levels.end(), level.name) != levels.end())
                 plan_level(level, mesh, material);
@@ -100,11 +101,12 @@ class Planner {
 
     void plan_level(const Level& level, const std::filesystem::path& fine_mesh,
                     std::filesystem::path object) {
+        if (!level.object.empty()) object = level.object;
         if (level.bins > 0) object = simplify(level, object);
         if (level.mesh) object = coarsen(level, fine_mesh, object);
         const auto asset =
             add("knead-bake", {scene_.file.string(), object.string(), "--level", level.name}, level.name);
-        plan_.assets.push_back({level.name, asset});
+        plan_.assets.push_back({level.name, asset, object});
     }
 
     std::filesystem::path simplify(const Level& level, const std::filesystem::path& object) {
@@ -148,6 +150,16 @@ class Planner {
 };
 
 }  // namespace
+
+std::string command_line(const Stage& stage) {
+    std::string line = stage.tool;
+    for (const std::string& argument : stage.arguments) {
+        const bool plain =
+            argument.find_first_of(" '\"$*?()&;<>|\\") == std::string::npos && !argument.empty();
+        line += plain ? ' ' + argument : " '" + argument + "'";
+    }
+    return line;
+}
 
 Plan plan_build(const Scene& scene, const std::vector<std::string>& levels,
                 const std::filesystem::path& folder) {

@@ -19,15 +19,20 @@ struct Stage {
     bool operator==(const Stage&) const = default;
 };
 
+/// As a shell would take it.
+[[nodiscard]] std::string command_line(const Stage& stage);
+
 /// The asset that a level ends in.
 struct PlannedAsset {
     std::string level;
     std::filesystem::path file;
+    std::filesystem::path object;  ///< mesh and material that it is baked from
 };
 
 struct Plan {
     std::vector<Stage> stages;  ///< in an order in which every input is made before it is read
     std::vector<PlannedAsset> assets;
+    std::filesystem::path fine_object;  ///< mesh and raw elasticities
 };
 
 /// The stages from the scene file to the asset of each of `levels` (names; empty: all of the scene's).

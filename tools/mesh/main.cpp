@@ -10,10 +10,11 @@
 #include "mesh/gmsh_primitives.h"
 #include "mesh/gmsh_session.h"
 #include "mesh/import.h"
-#include "mesh/mesh_quality.h"
 #include "mesh/options.h"
 #include "mesh/outline.h"
 #include "mesh/source_files.h"
+#include "quality/mesh_quality.h"
+#include "quality/report_text.h"
 
 namespace knead::tools {
 namespace {
@@ -91,6 +92,7 @@ std::string report(const MadeMesh& made, const MeshQuality& quality, const MeshO
     json["bounding_box_m"] = {quality.low_m, quality.high_m};
     json["radius_ratio"] = {{"min", quality.min_radius_ratio}, {"mean", quality.mean_radius_ratio}};
     json["slivers"] = quality.slivers.size();
+    json["quality"] = to_json(quality);
     json["notes"] = nlohmann::json::array();
     for (const Note& note : made.notes)
         json["notes"].push_back({{"warning", note.warning}, {"text", note.text}});

@@ -57,7 +57,7 @@ void read_tetrahedra(TextReader& reader, RawMesh& mesh, std::vector<std::int64_t
     for (std::size_t i = 0; i < count; ++i) {
         std::array<std::int64_t, 4> nodes{};
         for (std::int64_t& node : nodes)
-            node = reader.integer("a vertex number") - 1;
+            node = position_of(reader.integer("a vertex number"), 1);
         mesh.tetrahedra.push_back(nodes);
         mesh.tetrahedron_numbers.push_back(static_cast<std::int64_t>(i) + 1);
         references.push_back(reader.integer("a reference"));

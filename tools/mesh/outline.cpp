@@ -12,6 +12,9 @@
 namespace knead::tools {
 namespace {
 
+/// Each side is held against each other one: more would take minutes.
+constexpr std::size_t kMostCorners = 10'000;
+
 using Corner = std::array<double, 2>;
 
 double side(const Corner& a, const Corner& b, const Corner& c) {
@@ -50,6 +53,8 @@ std::vector<Corner> read_outline(std::string_view content) {
             fail_input(fmt::format("line {}: two finite numbers, x and y, should stand here", line));
         if (!corners.empty() && corners.back() == corner)
             fail_input(fmt::format("line {}: the same corner twice in a row", line));
+        if (corners.size() == kMostCorners)
+            fail_input(fmt::format("line {}: more than {} corners", line, kMostCorners));
         corners.push_back(corner);
     }
     if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();

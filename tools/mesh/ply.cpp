@@ -74,6 +74,9 @@ PlyHeader read_header(TextReader& reader) {
         } else if (keyword == "element") {
             PlyElement element;
             element.name = reader.word("a name");
+            // A second list of vertices without properties would grow for nothing: a small file, much memory.
+            for (const PlyElement& earlier : header.elements)
+                if (earlier.name == element.name) reader.fail("a second element " + in_quotes(element.name));
             element.count = reader.count("the number of elements");
             header.elements.push_back(element);
         } else if (keyword == "property") {

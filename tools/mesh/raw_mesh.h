@@ -26,4 +26,10 @@ struct RawMesh {
     Notes notes;                                                   ///< what the reader has to say
 };
 
+/// Position of what a file calls `number`, when it counts from `first`. -1, which no mesh has, for numbers in
+/// front of the first: whatever a file says, nothing overflows.
+[[nodiscard]] inline std::int64_t position_of(std::int64_t number, std::int64_t first) {
+    return number < first ? -1 : number - first;
+}
+
 }  // namespace knead::tools

@@ -9,13 +9,11 @@
 #include <numeric>
 
 #include "common/error.h"
-#include "mesh/mesh_quality.h"
+#include "quality/mesh_quality.h"
 
 namespace knead::tools {
 namespace {
 
-constexpr double kLargestLikelyExtent_m = 10;
-constexpr double kSmallestLikelyExtent_m = 1e-4;
 constexpr std::size_t kNamed = 5;
 
 /// "3 of 12 tetrahedra are flat (17, 204, 993, numbered from 1)"
@@ -267,9 +265,7 @@ RepairedMesh to_tet_mesh(RawMesh raw, const RepairOptions& options) {
 
 Notes remarks(const TetMesh& mesh, const MeshQuality& quality) {
     Notes notes;
-    double extent = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        extent = std::max(extent, quality.high_m[axis] - quality.low_m[axis]);
+    const double extent = quality.extent_m();
     if (extent > kLargestLikelyExtent_m)
         notes.push_back({true, fmt::format("the mesh is {:.3g} m across: this looks like millimetres called "
                                            "metres; check the length unit",

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "common/error.h"
-#include "mesh/union_find.h"
+#include "quality/union_find.h"
 
 namespace knead::tools {
 namespace {

@@ -238,7 +238,7 @@ void VegReader::resolve_tetrahedra() {
     mesh_.numbering = fmt::format("numbered from {}", first_element_);
     for (auto& nodes : mesh_.tetrahedra)
         for (std::int64_t& node : nodes)
-            node -= first_vertex_;
+            node = position_of(node, first_vertex_);
 }
 
 std::vector<std::int64_t> VegReader::elements_of(const std::string& set, const std::string& place) const {

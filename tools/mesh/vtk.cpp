@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -15,6 +16,7 @@ namespace knead::tools {
 namespace {
 
 constexpr int kVtkTetra = 10;
+constexpr double kLargestType = 255;
 
 std::string cell_type_name(int type) {
     static const std::map<int, const char*> kNames{{1, "vertices"},
@@ -36,6 +38,14 @@ std::string cell_type_name(int type) {
                                                    {25, "quadratic hexahedra"}};
     const auto found = kNames.find(type);
     return found != kNames.end() ? found->second : fmt::format("cells of VTK type {}", type);
+}
+
+/// A number of the file as an index; -1, which no mesh has, for what is none.
+std::int64_t index_of(double number) {
+    constexpr double kLargest = 9007199254740992.0;  // 2^53: beyond, doubles are no indices
+    return number >= 0 && number < kLargest && number == std::floor(number)
+               ? static_cast<std::int64_t>(number)
+               : -1;
 }
 
 /// One file being read: its sections fill the members, assemble() makes the mesh of them.
@@ -246,6 +256,8 @@ RawMesh VtkReader::assemble() {
     std::map<int, std::size_t> others;
     for (std::size_t cell = 0; cell < cells; ++cell) {
         if (types_[cell] != kVtkTetra) {
+            if (index_of(types_[cell]) < 0 || types_[cell] > kLargestType)
+                fail_input(fmt::format("cell {} (from 0) has {:g} for its type", cell, types_[cell]));
             ++others[static_cast<int>(types_[cell])];
             continue;
         }
@@ -253,7 +265,7 @@ RawMesh VtkReader::assemble() {
             fail_input(fmt::format("cell {} (from 0) is a tetrahedron without four nodes", cell));
         std::array<std::int64_t, 4> nodes{};
         for (int i = 0; i < 4; ++i)
-            nodes[i] = static_cast<std::int64_t>(corners_[offsets_[cell] + i]);
+            nodes[i] = index_of(corners_[offsets_[cell] + i]);
         mesh.tetrahedra.push_back(nodes);
         mesh.tetrahedron_numbers.push_back(static_cast<std::int64_t>(cell));
     }

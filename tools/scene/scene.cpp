@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "common/error.h"
 #include "common/length.h"
@@ -190,6 +192,14 @@ Level read_level(const Scene& scene, TomlTable table) {
     Level level;
     level.line = table.line();
     level.name = required_name(table, "name");
+    if (table.has("object")) {
+        level.object = path_beside(scene, table.text("object"));
+        for (const char* key : {"bins", "clusters", "binning", "restarts", "seed", "order", "interest",
+                                "direction_weight", "rule", "mesh"})
+            if (table.has(key)) table.fail(key, "says how to make what object = \"...\" brings ready made");
+        table.finish();
+        return level;
+    }
     if (table.has("bins")) {
         level.bins = required_count(table, "bins");
         level.clusters = required_count(table, "clusters");
@@ -384,24 +394,26 @@ const Level& Scene::level(const std::string& level_name) const {
                            near.empty() ? "" : "; did you mean \"" + near + "\"?"));
 }
 
+Scene parse_scene(std::string_view text, const std::filesystem::path& file) {
+    const toml::table parsed = parse_toml(text, file.string());
+    Scene scene;
+    scene.file = file;
+    TomlTable root(parsed, file.string(), "");
+    scene.name = required_name(root, "name");
+    read_body(scene, root);
+    root.finish();
+    require_unique_names(scene.levels, file.string(), "level");
+    require_unique_names(scene.tools, file.string(), "tool");
+    return scene;
+}
+
 Scene read_scene(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) fail_input(file.string() + ": no such file");
-    try {
-        const toml::table parsed = toml::parse_file(file.string());
-        Scene scene;
-        scene.file = file;
-        TomlTable root(parsed, file.string(), "");
-        scene.name = required_name(root, "name");
-        read_body(scene, root);
-        root.finish();
-        require_unique_names(scene.levels, file.string(), "level");
-        require_unique_names(scene.tools, file.string(), "tool");
-        return scene;
-    } catch (const toml::parse_error& parse_error) {
-        fail_input(fmt::format("{}:{}: not valid TOML: {}", file.string(), parse_error.source().begin.line,
-                               parse_error.description()));
-    }
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream) fail_input(file.string() + ": cannot be read");
+    return parse_scene(text, file);
 }
 
 }  // namespace knead::tools

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "knead/formats/asset.h"
@@ -69,6 +70,9 @@ struct Level {
     double direction_weight = 0.25;
     std::string rule = "dominant";
     std::optional<MeshSource> mesh;  ///< absent: the fine mesh itself
+    /// Mesh and material of the level, made beforehand (knead-tune): the keys above and `mesh` are then not
+    /// given. Empty: the level is made from the scene's own.
+    std::filesystem::path object;
 };
 
 /// Nodes by place. Sides are those of the mesh's bounding box: bottom -z, top +z, left -x, right +x,
@@ -130,5 +134,8 @@ struct Scene {
 /// Reads and checks a scene. Throws ToolError(bad_input) whose message starts with "file:line:" and, for an
 /// unknown key, names the nearest known one.
 [[nodiscard]] Scene read_scene(const std::filesystem::path& file);
+
+/// The same of a text that stands in `file`.
+[[nodiscard]] Scene parse_scene(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace knead::tools

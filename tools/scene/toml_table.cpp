@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "common/error.h"
@@ -31,12 +32,43 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return d[a.size()][b.size()];
 }
 
+/// Refuses keys of many parts before the parser sees them: it makes a table of each part, and tables are
+/// destroyed one inside the other. Counts dots with something before them that a key can be made of. A text
+/// value or a comment with as many dots and nothing else between them is refused as well.
+void require_short_keys(std::string_view text, const std::string& file) {
+    constexpr int kMostDots = 64;
+    constexpr std::string_view kKeyBytes = "_-\"' \t";
+    std::uint32_t line = 1;
+    int dots = 0;
+    for (const char c : text) {
+        if (c == '\n') ++line;
+        if (c == '.' && ++dots > kMostDots)
+            fail_input(fmt::format("{}:{}: a key of more than {} parts", file, line, kMostDots));
+        const bool other = static_cast<unsigned char>(c) >= 0x80;  // letters of other scripts, in quotes
+        const bool of_key = std::isalnum(static_cast<unsigned char>(c)) != 0 || other || c == '.' ||
+                            kKeyBytes.find(c) != std::string_view::npos;
+        if (!of_key) dots = 0;
+    }
+}
+
 }  // namespace
+
+toml::table parse_toml(std::string_view text, const std::string& file) {
+    require_short_keys(text, file);
+    try {
+        return toml::parse(text, file);
+    } catch (const toml::parse_error& error) {
+        fail_input(
+            fmt::format("{}:{}: not valid TOML: {}", file, error.source().begin.line, error.description()));
+    }
+}
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
     std::string best;
     std::size_t best_distance = word.size() / 2 + 1;  // farther away is no help
     for (const std::string& candidate : known) {
+        const std::size_t longer = std::max(word.size(), candidate.size());
+        if (longer - std::min(word.size(), candidate.size()) >= best_distance) continue;  // at least so far
         const std::size_t distance = edit_distance(word, candidate);
         if (distance < best_distance) {
             best_distance = distance;

@@ -63,6 +63,12 @@ class TomlTable {
     std::vector<std::string> known_;
 };
 
+/// Parses a whole file. Throws ToolError(bad_input) "file:line: ...": not TOML, or a key of more than 64
+/// parts
+/// ("a.b.c" has three), because tables in tables without end would end our stack.
+/// @param file what messages call it
+[[nodiscard]] toml::table parse_toml(std::string_view text, const std::string& file);
+
 /// The entry of `known` with the smallest edit distance to `word`; empty if none is near.
 [[nodiscard]] std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
 

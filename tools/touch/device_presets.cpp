@@ -74,24 +74,19 @@ std::vector<std::string> names_of(const std::vector<DevicePreset>& presets) {
 }  // namespace
 
 std::vector<DevicePreset> parse_device_presets(std::string_view text, const std::string& file) {
-    try {
-        const toml::table parsed = toml::parse(text, file);
-        TomlTable root(parsed, file, "");
-        std::vector<DevicePreset> presets;
-        for (TomlTable& table : root.tables("device")) {
-            DevicePreset preset = read_device(table);
-            const std::vector<std::string> names = names_of(presets);
-            if (std::find(names.begin(), names.end(), preset.name) != names.end())
-                table.fail("name", fmt::format("\"{}\" is the name of an earlier device", preset.name));
-            presets.push_back(std::move(preset));
-        }
-        root.finish();
-        if (presets.empty()) fail_input(file + ": no device");
-        return presets;
-    } catch (const toml::parse_error& error) {
-        fail_input(
-            fmt::format("{}:{}: not valid TOML: {}", file, error.source().begin.line, error.description()));
+    const toml::table parsed = parse_toml(text, file);
+    TomlTable root(parsed, file, "");
+    std::vector<DevicePreset> presets;
+    for (TomlTable& table : root.tables("device")) {
+        DevicePreset preset = read_device(table);
+        const std::vector<std::string> names = names_of(presets);
+        if (std::find(names.begin(), names.end(), preset.name) != names.end())
+            table.fail("name", fmt::format("\"{}\" is the name of an earlier device", preset.name));
+        presets.push_back(std::move(preset));
     }
+    root.finish();
+    if (presets.empty()) fail_input(file + ": no device");
+    return presets;
 }
 
 const DevicePreset& find_device(const std::vector<DevicePreset>& presets, const std::string& name) {

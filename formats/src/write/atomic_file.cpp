@@ -89,7 +89,7 @@ void replace_file(const std::filesystem::path& file, std::span<const std::byte> 
 }
 
 Status write_text_file(const std::filesystem::path& file, const std::string& text) {
-    return guarded(file.string(), [&] {
+    return guarded(file, [&] {
         replace_file(file, std::as_bytes(std::span<const char>(text)));
         return Unit{};
     });

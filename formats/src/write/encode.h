@@ -88,7 +88,7 @@ void replace_file(const std::filesystem::path& file, std::span<const std::byte> 
 template <class Encode>
 Status write_kind(const std::filesystem::path& file, FileKind kind, const Provenance& provenance,
                   Encode&& encode) {
-    return guarded(file.string(), [&] {
+    return guarded(file, [&] {
         try {
             FilePlan plan;
             plan.kind = kind;

@@ -58,7 +58,8 @@ enum {
 enum {
     KNEAD_ARITHMETIC_AUTOMATIC = 0, /* as fits the asset */
     KNEAD_ARITHMETIC_FLOAT32 = 1,
-    KNEAD_ARITHMETIC_FLOAT64 = 2
+    KNEAD_ARITHMETIC_FLOAT64 = 2,
+    KNEAD_ARITHMETIC_MIXED = 3 /* the state in float64, the solve in float32 */
 };
 
 /* Choices of the application; knead_config_init() sets the defaults. See knead/runtime/config.h. */

@@ -101,7 +101,7 @@ const char* problem_of(const knead_config& config) noexcept {
         return "knead_simulation_load: config->struct_size is not set; call knead_config_init()";
     if (config.tools == nullptr && config.tool_count != 0)
         return "knead_simulation_load: config->tools is NULL, but tool_count is not 0";
-    if (config.arithmetic < KNEAD_ARITHMETIC_AUTOMATIC || config.arithmetic > KNEAD_ARITHMETIC_FLOAT64)
+    if (config.arithmetic < KNEAD_ARITHMETIC_AUTOMATIC || config.arithmetic > KNEAD_ARITHMETIC_MIXED)
         return "knead_simulation_load: config->arithmetic is none of KNEAD_ARITHMETIC_*";
     return nullptr;
 }

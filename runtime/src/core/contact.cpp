@@ -76,7 +76,7 @@ void Contact::begin_step(const std::vector<Frame>& tools, const NodeReader& pred
     std::copy(tools.begin(), tools.end(), predicted_.begin());
     friction_updates_ = 0;
     fewest_violators_ = owners_.size() + 1;
-    passes_without_gain_ = 0;
+    passes_without_gain_ = early_changes_ = 0;
     for (std::size_t t = 0; t < tools_.size(); ++t) {
         for (TouchedSet& touched : tools_[t].touched)
             touched.begin_step(predicted_[t], predicted, dt_s, owners_);
@@ -100,6 +100,19 @@ void Contact::measure(const Attempt& attempt) noexcept {
         load.torque_n_m += (attempt.solved(constraint.node) - origin).cross(force);
         ++load.touched;
     }
+}
+
+bool Contact::glance(const Attempt& attempt) noexcept {
+    if (early_changes_ >= kMostEarlyChanges || passes_without_gain_ >= kPatience) return false;
+    Tally tally;
+    for (std::size_t t = 0; t < tools_.size(); ++t) {
+        for (TouchedSet& touched : tools_[t].touched)
+            touched.revise(moved(t, attempt), attempt, owners_, tally);
+    }
+    if (!tally.changed) return false;
+    ++early_changes_;
+    list_constraints(attempt.predicted);
+    return true;
 }
 
 Contact::Revision Contact::revise(const Attempt& attempt) noexcept {

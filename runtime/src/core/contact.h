@@ -41,6 +41,7 @@ class Contact {
     };
 
     static constexpr int kMostFrictionUpdates = 30;  ///< passes of a step
+    static constexpr int kMostEarlyChanges = 10;     ///< times that glance() may change something in a step
 
     /// @param tools valid, of the asset that `model` was built from  @param model outlives this
     Contact(const std::vector<ToolSet>& tools, const Model& model,
@@ -56,6 +57,12 @@ class Contact {
 
     /// After a solve with constraints().
     Revision revise(const Attempt& attempt) noexcept;
+
+    /// After an iteration of a solve with constraints() that is not at its end. A clear change of touch is
+    /// taken over at once: the solve need not be finished for a set that is wrong. Changes nothing of what a
+    /// step ends with but its way there; mistakes are mended by revise().
+    /// @param attempt early  @return whether something has changed: solve again
+    bool glance(const Attempt& attempt) noexcept;
 
     /// After an accepted step. @param tools [tools] where they are now  @param travel_m as in Attempt
     void end_step(const std::vector<Frame>& tools, const NodeReader& positions, Real travel_m) noexcept;
@@ -94,6 +101,7 @@ class Contact {
     int friction_updates_ = 0;
     std::size_t fewest_violators_ = 0;
     int passes_without_gain_ = 0;
+    int early_changes_ = 0;
 };
 
 }  // namespace knead::core

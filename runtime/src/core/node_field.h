@@ -33,8 +33,10 @@ class NodeField {
     void add(std::size_t node, const Vec& value) noexcept { set(node, get(node) + value); }
 
     void fill_zero() noexcept { std::fill_n(data(), size(), S(0)); }
-    void copy(const NodeField& other) noexcept {
-        std::copy_n(other.numbers_.data(), numbers_.size(), numbers_.data());
+    /// Rounded, if this is narrower. @param other of as many nodes
+    template <class T>
+    void copy(const NodeField<T>& other) noexcept {
+        std::transform(other.data(), other.data() + size(), data(), [](T x) { return static_cast<S>(x); });
     }
 
     [[nodiscard]] S* data() noexcept { return numbers_.data(); }

@@ -17,8 +17,8 @@ class NodeReader {
         add(displacement_m);
     }
     /// At rest + displacement + more.
-    template <class S>
-    NodeReader(const Field& rest_m, const NodeField<S>& displacement_m, const NodeField<S>& more_m)
+    template <class S, class V>
+    NodeReader(const Field& rest_m, const NodeField<S>& displacement_m, const NodeField<V>& more_m)
         : rest_(&rest_m) {
         add(displacement_m);
         add(more_m);

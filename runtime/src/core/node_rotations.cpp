@@ -34,7 +34,7 @@ std::vector<std::vector<Neighbour>> stiffest_around(const Model& model) {
 }  // namespace
 
 template <class S>
-NodeRotations<S>::NodeRotations(const Model& model, const Elements<S>& elements, const Kernels& kernels)
+NodeRotations<S>::NodeRotations(const Model& model, const Stiffness<S>& elements, const Kernels& kernels)
     : kernels_(kernels.rotation<S>()), count_(model.free_count) {
     const std::size_t width = kernels_.width;
     blocks_ = (count_ + width - 1) / width;
@@ -82,7 +82,7 @@ void NodeRotations<S>::reset() noexcept {
 }
 
 template <class S>
-void NodeRotations<S>::update(const Elements<S>& elements, std::uint32_t shares) noexcept {
+void NodeRotations<S>::update(const Stiffness<S>& elements, std::uint32_t shares) noexcept {
     Real sum = 0;
     for (std::size_t block = next_share_; block < blocks_; block += shares) {
         sum += static_cast<Real>(

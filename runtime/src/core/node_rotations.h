@@ -13,13 +13,13 @@ namespace knead::core {
 template <class S>
 class NodeRotations {
   public:
-    NodeRotations(const Model& model, const Elements<S>& elements, const Kernels& kernels);
+    NodeRotations(const Model& model, const Stiffness<S>& elements, const Kernels& kernels);
 
     void reset() noexcept;
 
     /// Takes one of `shares` shares (at most 64) of the nodes anew, the next one with each call.
     /// @param elements the ones of the constructor
-    void update(const Elements<S>& elements, std::uint32_t shares) noexcept;
+    void update(const Stiffness<S>& elements, std::uint32_t shares) noexcept;
 
     /// out = R^T v: into the rest state's frame. Packed x, y, z, of packed_size(free nodes) numbers.
     void turn_back(const NodeField<S>& v, float* out) const noexcept {

@@ -77,14 +77,14 @@ std::vector<Real> node_stiffnesses(const Model& model) {
 }  // namespace
 
 template <class S>
-Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, const Numerics& numerics,
+Preconditioner<S>::Preconditioner(const Model& model, const Stiffness<S>& at_rest, const Numerics& numerics,
                                   SimdTarget target, Real dt_s, const std::vector<std::uint32_t>& touchable)
     : model_(model),
       fields_(kernels(target).field<S>()),
       expected_dt_s_(dt_s),
       dt_s_(dt_s),
       rotation_shares_(numerics.contrast <= kLaggingContrast ? kRotationShares : 1),
-      rotations_(model, elements, kernels(target)),
+      rotations_(model, at_rest, kernels(target)),
       matrix_(model, RestMatrix::Kind::elastic),
       sparse_(matrix_.pattern(), kernels(target)),
       turned_(model.rest_m.size()),
@@ -99,6 +99,7 @@ Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, con
       felt_(touchable.size()),
       felt_at_(model.free_count, 0),
       felt_stiffness_(model.bonded.size(), Mat::Zero()),
+      felt_alike_(model.bonded.size()),
       tool_inverse_(model.bonded.size(), Mat::Zero()),
       stiffness_per_s2_(std::accumulate(node_stiffness_.begin(), node_stiffness_.end(), Real(0)) /
                         model.free_mass_kg) {
@@ -115,7 +116,7 @@ Preconditioner<S>::Preconditioner(const Model& model, Elements<S>& elements, con
                                                           ContactCorrection::kColumnBytes, target);
         correction_scratch_ = std::make_unique<ContactCorrection::Scratch>(*correction_);
     }
-    find_borders(elements);
+    find_borders(at_rest);
     make_for(dt_s);
 }
 
@@ -149,10 +150,9 @@ void Preconditioner<S>::make_for(Real dt_s) noexcept {
 }
 
 template <class S>
-void Preconditioner<S>::find_borders(Elements<S>& elements) {
+void Preconditioner<S>::find_borders(const Stiffness<S>& at_rest) {
     borders_.resize(model_.bonded.size());
-    NodeField<S> motion(model_.rest_m.size()), forces(model_.rest_m.size());
-    elements.linearise(S(1), motion, forces);  // at rest
+    NodeField<S> motion(model_.rest_m.size());
     for (std::size_t k = 0; k < borders_.size(); ++k) {
         const Model::Range nodes = model_.bonded[k];
         if (nodes.begin == nodes.end) continue;
@@ -162,7 +162,7 @@ void Preconditioner<S>::find_borders(Elements<S>& elements) {
                 motion.set(i, Vec::Unit(axis));
             NodeField<S>& force = borders_[k].force[static_cast<std::size_t>(axis)];
             force = NodeField<S>(model_.rest_m.size());
-            elements.add_stiffness(S(1), motion, force);
+            at_rest.add_product(S(1), motion, force);
             for (std::uint32_t i = nodes.begin; i < nodes.end; ++i)
                 borders_[k].stiffness.col(axis) += force.get(i);
             for (std::size_t i = model_.free_count; i < model_.rest_m.size(); ++i)
@@ -170,7 +170,6 @@ void Preconditioner<S>::find_borders(Elements<S>& elements) {
             borders_[k].response[static_cast<std::size_t>(axis)] = NodeField<S>(model_.rest_m.size());
         }
     }
-    elements.reset();
 }
 
 template <class S>
@@ -212,7 +211,7 @@ template <class S>
 void Preconditioner<S>::begin_step(const System<S>& system) noexcept {
     if (uses_sparse_ || !laplacian()) {
         const auto shares = static_cast<std::uint32_t>(kRotationsIn_s / system.dt_s);
-        rotations_.update(system.elements, std::clamp(shares, 1u, rotation_shares_));
+        rotations_.update(system.stiffness, std::clamp(shares, 1u, rotation_shares_));
     }
     turns_ = !uses_sparse_ || rotations_.mean_angle_rad() > kTurnSparse_rad;
     follow(system.dt_s);
@@ -308,8 +307,12 @@ void Preconditioner<S>::find_held_stiffness(const System<S>& system) noexcept {
     if (same) return;
     felt_count_ = std::min(constraints.size(), felt_.size());
     std::fill(felt_stiffness_.begin(), felt_stiffness_.end(), Mat::Zero());
+    std::fill(felt_alike_.begin(), felt_alike_.end(), FeltAlike{});
     for (std::uint32_t k = 0; k < felt_count_; ++k) {
-        felt_[k] = {constraints[k].node, constraints[k].tool, constraints[k].held};
+        FeltAlike& alike = felt_alike_[constraints[k].tool];
+        if (alike.held.isZero(0)) alike.held = constraints[k].held;
+        felt_[k] = {constraints[k].node, constraints[k].tool, constraints[k].held == alike.held,
+                    constraints[k].held};
         felt_at_[constraints[k].node] = k;
     }
     const MatrixPattern& pattern = matrix_.pattern();
@@ -323,9 +326,19 @@ void Preconditioner<S>::find_held_stiffness(const System<S>& system) noexcept {
             if (at >= felt_count_ || felt_[at].node != row || felt_[at].tool != column.tool) continue;
             Mat block = Eigen::Map<const Mat>(matrix_.values() + std::size_t{9} * e);
             if (row == column.node) block.diagonal().array() -= inertia * model_.mass_kg[row];
+            if (column.alike && felt_[at].alike) {
+                FeltAlike& alike = felt_alike_[column.tool];
+                (row == column.node ? alike.own : alike.between) += block;
+                continue;
+            }
             const Mat felt = felt_[at].held * block * column.held;
             felt_stiffness_[column.tool] += row == column.node ? felt : Mat(felt + felt.transpose());
         }
+    }
+    for (std::size_t t = 0; t < held_stiffness_.size(); ++t) {
+        const FeltAlike& alike = felt_alike_[t];
+        const Mat sum = alike.own + alike.between + alike.between.transpose();
+        felt_stiffness_[t] += alike.held * sum * alike.held;
     }
     for (std::size_t t = 0; t < held_stiffness_.size(); ++t)
         held_stiffness_[t] = largest_eigenvalue(felt_stiffness_[t]) / (matrix_dt_s_ * matrix_dt_s_);

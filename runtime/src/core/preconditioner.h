@@ -21,10 +21,9 @@ namespace knead::core {
 template <class S>
 class Preconditioner {
   public:
-    /// @param elements not yet linearised; left at rest  @param touchable free nodes that constraints may
-    /// hold
-    Preconditioner(const Model& model, Elements<S>& elements, const Numerics& numerics, SimdTarget target,
-                   Real dt_s, const std::vector<std::uint32_t>& touchable);
+    /// @param touchable free nodes that constraints may hold
+    Preconditioner(const Model& model, const Stiffness<S>& at_rest, const Numerics& numerics,
+                   SimdTarget target, Real dt_s, const std::vector<std::uint32_t>& touchable);
 
     /// As just constructed. Makes the numbers anew if they follow another dt.
     void reset() noexcept;
@@ -71,7 +70,7 @@ class Preconditioner {
     [[nodiscard]] bool sparse_suffices(Real dt_s) const noexcept;
     void make_for(Real dt_s) noexcept;
     [[nodiscard]] bool advance(std::uint64_t work) noexcept;
-    void find_borders(Elements<S>& elements);
+    void find_borders(const Stiffness<S>& at_rest);
     void find_responses() noexcept;
     void follow(Real dt_s) noexcept;
     void solve(const NodeField<S>& residual, NodeField<S>& out) const noexcept;
@@ -112,14 +111,20 @@ class Preconditioner {
     /// Of which nodes that is.
     struct Felt {
         std::uint32_t node = 0, tool = 0;
+        bool alike = false;  ///< held as the first one of its tool
         Mat held = Mat::Zero();
     };
     std::vector<Felt> felt_;
     std::size_t felt_count_ = 0;
     std::vector<std::uint32_t> felt_at_;  ///< [free nodes] index in felt_, if that says so too
     std::vector<Mat> felt_stiffness_;     ///< [tools]
-    Real matrix_dt_s_ = 0;                ///< of matrix_
-    std::vector<Mat> tool_inverse_;       ///< [tools] moving ones: of what is left for the tool itself
+    /// [tools] The part of it that comes of nodes held alike, before `held` is applied.
+    struct FeltAlike {
+        Mat held = Mat::Zero(), own = Mat::Zero(), between = Mat::Zero();
+    };
+    std::vector<FeltAlike> felt_alike_;
+    Real matrix_dt_s_ = 0;           ///< of matrix_
+    std::vector<Mat> tool_inverse_;  ///< [tools] moving ones: of what is left for the tool itself
 
     /// New numbers for another dt, what is being made.
     enum class Job : std::uint8_t { none, sparse, factor, contact };

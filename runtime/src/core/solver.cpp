@@ -259,14 +259,16 @@ void Solver<S>::remember(const System<S>& system, const Solution<S>& solution, b
 
 template <class S>
 void Solver<S>::solve(const System<S>& system, const Preconditioner<S>& preconditioner,
-                      const NodeField<S>& load, const SolverLimits& limits, Solution<S>& solution) noexcept {
+                      const NodeField<S>& load, const SolverLimits& limits, Solution<S>& solution,
+                      Watcher<S>* watcher) noexcept {
     const bool first = solution.from_zero;
+    if (first) step_is_new_ = true;
     start(system, load, solution);
     if (first && last_iterations_ >= kManyIterations) start_from_recent(system, solution);
     const FieldKernels<S>& fields = system.fields;
     const std::size_t free = run_of(system.model.free_count);
     Decreases decreases;
-    solution.converged = false;
+    solution.converged = solution.stopped = false;
     preconditioner.apply(system, residual_, preconditioned_);
     std::swap(direction_, preconditioned_);
     Real rz = dot(system, residual_, direction_);
@@ -286,6 +288,10 @@ void Solver<S>::solve(const System<S>& system, const Preconditioner<S>& precondi
             solution.converged = true;
             break;
         }
+        if (watcher != nullptr && watcher->stops(solution)) {
+            solution.stopped = true;
+            return;
+        }
 
         preconditioner.apply(system, residual_, preconditioned_);
         const Real next = dot(system, residual_, preconditioned_);
@@ -301,7 +307,8 @@ void Solver<S>::solve(const System<S>& system, const Preconditioner<S>& precondi
         rz = next;
     }
     find_forces(system, solution);
-    remember(system, solution, first);
+    remember(system, solution, step_is_new_);
+    step_is_new_ = false;
     if (limits.belief != Belief::from_the_start) return;
     for (std::size_t k = 0; k < system.tools.size(); ++k)
         solution.force_n[k] += preconditioner.force_owed(system, k, residual_.nodes);

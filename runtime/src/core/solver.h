@@ -31,6 +31,18 @@ struct Solution {
     std::vector<Vec> force_n;  ///< [tools] on the hand: sum of the held rows, or the coupling's force
     int iterations = 0;
     bool converged = false;
+    bool stopped = false;  ///< by the watcher, before it converged
+};
+
+/// Looks at a solution on its way: a system that is about to change need not be solved to the end.
+template <class S>
+class Watcher {
+  public:
+    /// After an iteration that left something to do. @return the solve shall stop
+    [[nodiscard]] virtual bool stops(const Solution<S>& solution) noexcept = 0;
+
+  protected:
+    ~Watcher() = default;
 };
 
 /// Conjugate gradients that stop on the force and on the velocities.
@@ -48,8 +60,9 @@ class Solver {
 
     /// @param load [nodes] b; the tools' load follows from system.tools
     /// @param solution in: a start, whatever is held; row_n has room for all constraints
+    /// @param watcher may be none
     void solve(const System<S>& system, const Preconditioner<S>& preconditioner, const NodeField<S>& load,
-               const SolverLimits& limits, Solution<S>& solution) noexcept;
+               const SolverLimits& limits, Solution<S>& solution, Watcher<S>* watcher = nullptr) noexcept;
 
     /// Forgets the last steps.
     void reset() noexcept {
@@ -86,6 +99,7 @@ class Solver {
     std::array<NodeField<S>, 2> recent_;  ///< solutions of the last steps, the newest first
     std::size_t recent_count_ = 0;
     int last_iterations_ = 0;
+    bool step_is_new_ = true;  ///< nothing of it is remembered yet
 };
 
 }  // namespace knead::core

@@ -2,28 +2,46 @@
 #include "core/sparse_inverse.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 namespace knead::core {
 namespace {
 
-/// Cholesky factor of the lower triangle, in place, row-major. @return false: not positive definite
+/// Cholesky factor of the lower triangle, in place, column-major. Column by column, so that the inner loop
+/// has no sum to wait for. @return false: not positive definite
 bool factor(double* a, std::size_t n) {
     for (std::size_t j = 0; j < n; ++j) {
-        for (std::size_t i = j; i < n; ++i) {
-            double sum = a[i * n + j];
-            for (std::size_t k = 0; k < j; ++k)
-                sum -= a[i * n + k] * a[j * n + k];
-            if (i == j) {
-                if (!(sum > 0)) return false;
-                a[j * n + j] = std::sqrt(sum);
-            } else {
-                a[i * n + j] = sum / a[j * n + j];
-            }
+        double* const column = a + j * n;
+        for (std::size_t k = 0; k < j; ++k) {
+            const double* const before = a + k * n;
+            const double times = before[j];
+            for (std::size_t i = j; i < n; ++i)
+                column[i] -= before[i] * times;
         }
+        if (!(column[j] > 0)) return false;
+        column[j] = std::sqrt(column[j]);
+        for (std::size_t i = j + 1; i < n; ++i)
+            column[i] /= column[j];
     }
     return true;
+}
+
+constexpr std::size_t kLanes = 4;  ///< three and one for the width of a vector
+
+/// The last three columns of L^-T, side by side in rows of kLanes. @param l column-major
+void solve_last_three(const double* l, std::size_t n, double* x) {
+    for (std::size_t i = n; i-- > 0;) {
+        const double* const column = l + i * n;
+        std::array<double, kLanes> sum{};
+        if (i + 3 >= n) sum[i + 3 - n] = 1;
+        for (std::size_t k = i + 1; k < n; ++k)
+            for (std::size_t lane = 0; lane < kLanes; ++lane)
+                sum[lane] -= column[k] * x[kLanes * k + lane];
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            x[kLanes * i + lane] = sum[lane] / column[i];
+    }
 }
 
 }  // namespace
@@ -54,7 +72,8 @@ SparseInverse<S>::SparseInverse(const MatrixPattern& pattern, const Kernels& ker
     arrange(row_begin_, nodes_, lower_);
     arrange(pattern.column_begin, pattern.row_nodes, upper_);
     small_.resize(most_ * most_);
-    solution_.resize(3 * most_);
+    solution_.resize(kLanes * most_);
+    local_.assign(pattern.node_count, kElsewhere);
 }
 
 template <class S>
@@ -95,50 +114,48 @@ void SparseInverse<S>::make(const double* values, std::uint32_t first, std::uint
         make_row(values, row);
 }
 
-/// Entry (r, c) of block (i, j), i >= j; zero where the pattern has none.
+/// The small matrix over the nodes of a row, column-major; zero where the pattern has none. Only its lower
+/// triangle of blocks is set.
 template <class S>
-double SparseInverse<S>::value(const double* values, std::uint32_t i, std::uint32_t j, int r,
-                               int c) const noexcept {
-    const auto begin = pattern_.row_nodes.begin() + pattern_.column_begin[j];
-    const auto end = pattern_.row_nodes.begin() + pattern_.column_begin[j + 1];
-    const auto found = std::lower_bound(begin, end, i);
-    if (found == end || *found != i) return 0;
-    return values[9 * (found - pattern_.row_nodes.begin()) + 3 * c + r];
+void SparseInverse<S>::gather(const double* values, std::uint32_t row) noexcept {
+    const std::uint32_t begin = row_begin_[row];
+    const std::size_t count = row_begin_[row + 1] - begin, n = 3 * count;
+    std::fill_n(small_.data(), n * n, 0.0);
+    for (std::size_t a = 0; a < count; ++a)
+        local_[nodes_[begin + a]] = static_cast<std::uint32_t>(a);
+    for (std::size_t b = 0; b < count; ++b) {
+        const std::uint32_t node = nodes_[begin + b];
+        for (std::uint32_t k = pattern_.column_begin[node]; k < pattern_.column_begin[node + 1]; ++k) {
+            const std::uint32_t other = pattern_.row_nodes[k];
+            if (other > row) break;
+            if (local_[other] == kElsewhere) continue;
+            const double* const block = values + std::size_t{9} * k;
+            double* const to = small_.data() + 3 * b * n + 3 * std::size_t{local_[other]};
+            for (std::size_t c = 0; c < 3; ++c)
+                for (std::size_t r = 0; r < 3; ++r)
+                    to[c * n + r] = block[3 * c + r];
+        }
+    }
+    for (std::size_t a = 0; a < count; ++a)
+        local_[nodes_[begin + a]] = kElsewhere;
 }
 
 template <class S>
 void SparseInverse<S>::make_row(const double* values, std::uint32_t row) noexcept {
     const std::uint32_t begin = row_begin_[row];
     const std::size_t count = row_begin_[row + 1] - begin, n = 3 * count;
-    for (std::size_t a = 0; a < count; ++a) {
-        for (std::size_t b = 0; b <= a; ++b) {
-            for (int r = 0; r < 3; ++r) {
-                for (int c = 0; c < 3; ++c) {
-                    small_[(3 * a + static_cast<std::size_t>(r)) * n + 3 * b + static_cast<std::size_t>(c)] =
-                        value(values, nodes_[begin + a], nodes_[begin + b], r, c);
-                }
-            }
-        }
-    }
+    gather(values, row);
     // A matrix that is positive definite is so over any nodes; if rounding says otherwise, the old row stays.
     if (!factor(small_.data(), n)) return;
-    // Row block of G, transposed: the last three columns of L^-T.
-    for (std::size_t column = 0; column < 3; ++column) {
-        double* const x = solution_.data() + column * n;
-        for (std::size_t i = n; i-- > 0;) {
-            double sum = i == n - 3 + column ? 1 : 0;
-            for (std::size_t k = i + 1; k < n; ++k)
-                sum -= small_[k * n + i] * x[k];
-            x[i] = sum / small_[i * n + i];
-        }
-    }
+    // Row block of G, transposed.
+    solve_last_three(small_.data(), n, solution_.data());
     const std::size_t width = 4 * kernels_.at_once;
     for (std::size_t a = 0; a < count; ++a) {
         S* const lower = lower_.blocks.data() + lower_.place[begin + a];
         S* const upper = upper_.blocks.data() + upper_.place[mirror_[begin + a]];
         for (std::size_t r = 0; r < 3; ++r) {
             for (std::size_t c = 0; c < 3; ++c) {
-                const auto g = static_cast<S>(solution_[r * n + 3 * a + c]);  // G(r, c)
+                const auto g = static_cast<S>(solution_[kLanes * (3 * a + c) + r]);  // G(r, c)
                 lower[width * c + r] = g;
                 upper[width * r + c] = g;
             }

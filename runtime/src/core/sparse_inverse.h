@@ -34,8 +34,7 @@ class SparseInverse {
 
   private:
     void make_row(const double* values, std::uint32_t row) noexcept;
-    [[nodiscard]] double value(const double* values, std::uint32_t i, std::uint32_t j, int r,
-                               int c) const noexcept;
+    void gather(const double* values, std::uint32_t row) noexcept;
 
     /// G or G^T in the order of the kernels.
     struct Groups {
@@ -59,6 +58,8 @@ class SparseInverse {
     mutable NodeField<S> between_;
     std::size_t most_ = 0;  ///< rows of the largest small matrix
     std::vector<double> small_, solution_;
+    static constexpr std::uint32_t kElsewhere = ~std::uint32_t{0};
+    std::vector<std::uint32_t> local_;  ///< [nodes] place in the row that is being made
 };
 
 }  // namespace knead::core

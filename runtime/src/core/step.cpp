@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/contact.h"
+#include "core/converted.h"
 #include "core/denormals.h"
 #include "core/solver.h"
 #include "core/tool_impedance.h"
@@ -23,12 +24,22 @@ constexpr double kHardVelocityTolerance_m_per_s = 1e-4;
 /// Root mean square of the last correction, in mean edges, up to which the next step is predicted with it.
 /// Beyond that motion is abrupt, and a wrong prediction would be a bad point to linearise at.
 constexpr Real kSmallCorrection = 5e-4;
+/// Factor between this dt and the last one up to which a step is predicted with the last correction. It
+/// counts by its square: 0.25 and 20 ms in turn made it 6,400 times too large, and the motion grew.
+constexpr Real kSteadyDt = 2;
 /// Friction may miss Coulomb's law by this many times the relative force tolerance: it is only a part of the
 /// force, and each of its updates costs a solve.
 constexpr double kConePerForceTolerance = 10;
+/// Iterations of a solve after which its touched nodes are looked at: later ones hardly change them.
+constexpr int kMostLooks = 2;
+/// A pull that is seen there must be this many times that of a solve that has ended.
+constexpr Real kPullSeenEarly = 10;
 /// Where a preconditioned residual is a fair measure of the error.
 constexpr double kTrustedContrast = 1e3;
 constexpr double kTrustedPoissonsRatio = 0.45;
+/// What is asked of the force for which a solve in single precision on a state in double is still chosen: its
+/// rounding is about that in the hardest matter that numerics.h gives it (docs/simulation.md).
+constexpr double kMixedForceTolerance = 1e-4;
 
 bool valid_step(double dt_s) {
     return dt_s >= kSmallestStep_s * (1 - kStepSlack) && dt_s <= kLargestStep_s * (1 + kStepSlack);
@@ -49,7 +60,9 @@ Vec3 to_array(const Vec& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-template <class S>
+/// S: the numbers of the state, in which it is predicted and linearised; V: those of the solve, S or
+/// narrower.
+template <class S, class V>
 class TypedStepper final : public Stepper {
   public:
     TypedStepper(const Asset& asset, const SimulationConfig& config, const Numerics& numerics,
@@ -70,6 +83,23 @@ class TypedStepper final : public Stepper {
     }
 
   private:
+    /// Ends a solve as soon as it shows that other nodes are touched than those that it is for.
+    class EarlyLook final : public Watcher<V> {
+      public:
+        EarlyLook(TypedStepper& stepper, const SolverLimits& limits) : stepper_(stepper), limits_(limits) {}
+        void begin() noexcept { looks_ = 0; }
+        bool stops(const Solution<V>& /*solution*/) noexcept override {
+            if (limits_.belief == Belief::never || ++looks_ > kMostLooks) return false;
+            return stepper_.judge(limits_, true,
+                                  [&](const Attempt& attempt) { return stepper_.contact_.glance(attempt); });
+        }
+
+      private:
+        TypedStepper& stepper_;
+        const SolverLimits& limits_;
+        int looks_ = 0;
+    };
+
     /// A tool between steps and in the one under way.
     struct Tool {
         Frame frame;                                                             ///< predicted
@@ -83,16 +113,18 @@ class TypedStepper final : public Stepper {
     void predict(const Frame* hands, Real dt) noexcept;
     void couple(Tool& tool, ToolUnknown& unknown, const Frame& hand, Real dt) const noexcept;
     void predict_bonded(std::size_t k) noexcept;
-    void linearise(const System<S>& system) noexcept;
-    std::uint32_t solve_with_contact(const System<S>& system) noexcept;
+    void linearise(const System<V>& system) noexcept;
+    std::uint32_t solve_with_contact(const System<V>& system) noexcept;
     [[nodiscard]] bool settled(const SolverLimits& limits, std::uint32_t& status) noexcept;
+    template <class Judge>
+    auto judge(const SolverLimits& limits, bool early, Judge&& judge) noexcept;
     [[nodiscard]] bool finite() const noexcept;
     void accept(const Frame* hands, Real dt, bool failed) noexcept;
-    void go_beyond(Real dt) noexcept;
+    void go_beyond(const NodeField<S>& d, Real dt) noexcept;
     void owe(Real dt) noexcept;
     void find_results(Real dt) noexcept;
     void list_held(std::size_t k) noexcept;
-    [[nodiscard]] System<S> system(Real dt) noexcept;
+    [[nodiscard]] System<V> system(Real dt) noexcept;
     StepResult refuse(std::uint32_t status) noexcept;
     [[nodiscard]] StepResult result(std::uint32_t status) const noexcept;
     [[nodiscard]] Real travel_m() const noexcept;
@@ -100,13 +132,14 @@ class TypedStepper final : public Stepper {
 
     const SimulationConfig config_;
     const Kernels& kernels_;
-    const FieldKernels<S>& fields_;
+    const FieldKernels<S>& fields_;        ///< of the state
+    const FieldKernels<V>& solve_fields_;  ///< of the solve
     const Model model_;
-    const Masses<S> masses_;
-    Elements<S> elements_;
+    const Masses<V> masses_;
+    Elements<S, V> elements_;
     Contact contact_;
-    Preconditioner<S> preconditioner_;
-    Solver<S> solver_;
+    Preconditioner<V> preconditioner_;
+    Solver<V> solver_;
     const bool trusts_preconditioner_;
     const bool unilateral_;  ///< some tool is
 
@@ -126,26 +159,29 @@ class TypedStepper final : public Stepper {
 
     // Of the step under way.
     NodeField<S> predicted_, load_, scratch_;
+    Converted<V, S> for_solve_;
+    Converted<S, V> from_solve_;
     std::vector<Frame> hands_, frames_;
     std::vector<ToolUnknown> unknowns_;
-    Solution<S> solution_;
+    Solution<V> solution_;
     std::uint32_t iterations_ = 0;
     std::vector<ToolResult> results_;
 
     // For linear views, if asked for.
     std::vector<ToolReach> reaches_;           ///< [tools]
-    std::vector<ToolImpedance<S>> impedance_;  ///< one or none
+    std::vector<ToolImpedance<V>> impedance_;  ///< one or none
     std::vector<HeldPart> held_;
     Real step_dt_s_ = 0;       ///< of the last step; zero: refused, or none yet
     std::uint64_t steps_ = 0;  ///< since reset()
 };
 
-template <class S>
-TypedStepper<S>::TypedStepper(const Asset& asset, const SimulationConfig& config, const Numerics& numerics,
-                              SimdTarget target)
+template <class S, class V>
+TypedStepper<S, V>::TypedStepper(const Asset& asset, const SimulationConfig& config, const Numerics& numerics,
+                                 SimdTarget target)
     : config_(config),
       kernels_(kernels(target)),
       fields_(kernels_.field<S>()),
+      solve_fields_(kernels_.field<V>()),
       model_(build_model(asset, config.tools)),
       masses_(model_),
       elements_(model_, kernels_),
@@ -156,12 +192,15 @@ TypedStepper<S>::TypedStepper(const Asset& asset, const SimulationConfig& config
       trusts_preconditioner_(numerics.contrast <= kTrustedContrast &&
                              numerics.max_poissons_ratio <= kTrustedPoissonsRatio),
       unilateral_(std::any_of(config.tools.begin(), config.tools.end(),
-                              [&](std::size_t k) { return asset.tools[k].contact != ToolContact::bonded; })) {
+                              [&](std::size_t k) { return asset.tools[k].contact != ToolContact::bonded; })),
+      for_solve_(model_.rest_m.size()),
+      from_solve_(model_.rest_m.size()) {
     const std::size_t nodes = model_.rest_m.size(), count = config.tools.size();
-    for (NodeField<S>* field : {&displacements_, &velocities_, &beyond_, &owed_, &predicted_, &load_,
-                                &scratch_, &solution_.displacement.nodes}) {
+    for (NodeField<S>* field :
+         {&displacements_, &velocities_, &beyond_, &owed_, &predicted_, &load_, &scratch_}) {
         *field = NodeField<S>(nodes);
     }
+    solution_.displacement.nodes = NodeField<V>(nodes);
     tools_.resize(count);
     hands_.resize(count);
     frames_.resize(count);
@@ -181,8 +220,8 @@ TypedStepper<S>::TypedStepper(const Asset& asset, const SimulationConfig& config
     reset();
 }
 
-template <class S>
-void TypedStepper<S>::make_room_for_views(const std::vector<ToolSet>& tools) {
+template <class S, class V>
+void TypedStepper<S, V>::make_room_for_views(const std::vector<ToolSet>& tools) {
     std::size_t most = contact_.max_constraints();
     for (std::size_t k = 0; k < tools.size(); ++k) {
         reaches_.emplace_back(tools[k], model_.mean_edge_m);
@@ -192,11 +231,11 @@ void TypedStepper<S>::make_room_for_views(const std::vector<ToolSet>& tools) {
     impedance_.emplace_back(model_, tools.size(), config_.with_torque ? 6 : 3);
 }
 
-template <class S>
-void TypedStepper<S>::reset() noexcept {
+template <class S, class V>
+void TypedStepper<S, V>::reset() noexcept {
     step_dt_s_ = 0;
     steps_ = 0;
-    for (ToolImpedance<S>& impedance : impedance_)
+    for (ToolImpedance<V>& impedance : impedance_)
         impedance.reset();
     displacements_.fill_zero();
     velocities_.fill_zero();
@@ -218,14 +257,14 @@ void TypedStepper<S>::reset() noexcept {
     }
 }
 
-template <class S>
-StepResult TypedStepper<S>::step(const Pose* poses, double dt_s) noexcept {
+template <class S, class V>
+StepResult TypedStepper<S, V>::step(const Pose* poses, double dt_s) noexcept {
     const NoDenormals no_denormals;
     if (!valid_step(dt_s)) return refuse(kStepBadInput);
     for (std::size_t k = 0; k < hands_.size(); ++k) {
         if (!to_frame(poses[k], hands_[k])) return refuse(kStepBadInput);
     }
-    const System<S> system = this->system(dt_s);
+    const System<V> system = this->system(dt_s);
 
     // 1. Predict where inertia carries everything.
     predict(hands_.data(), dt_s);
@@ -245,22 +284,24 @@ StepResult TypedStepper<S>::step(const Pose* poses, double dt_s) noexcept {
     return result(status);
 }
 
-template <class S>
-System<S> TypedStepper<S>::system(Real dt) noexcept {
+template <class S, class V>
+System<V> TypedStepper<S, V>::system(Real dt) noexcept {
     return {model_,
             elements_,
             masses_,
-            fields_,
+            solve_fields_,
             contact_.constraints(),
             unknowns_,
             dt,
             1 + model_.damping_per_s * dt};
 }
 
-template <class S>
-void TypedStepper<S>::predict(const Frame* hands, Real dt) noexcept {
+template <class S, class V>
+void TypedStepper<S, V>::predict(const Frame* hands, Real dt) noexcept {
     const std::size_t free = run_of(model_.free_count);
-    beyond_share_ = smoothness_ * (dt / beyond_dt_s_) * (dt / beyond_dt_s_);
+    const Real dt_ratio = dt / beyond_dt_s_;
+    const bool steady = dt_ratio <= kSteadyDt && dt_ratio >= 1 / kSteadyDt;
+    beyond_share_ = steady ? smoothness_ * dt_ratio * dt_ratio : 0;
     fields_.add_scaled(free, displacements_.data(), static_cast<S>(dt), velocities_.data(),
                        predicted_.data());
     fields_.add_scaled(free, predicted_.data(), static_cast<S>(beyond_share_), beyond_.data(),
@@ -275,8 +316,8 @@ void TypedStepper<S>::predict(const Frame* hands, Real dt) noexcept {
     contact_.begin_step(frames_, NodeReader(model_.rest_m, predicted_), dt);
 }
 
-template <class S>
-void TypedStepper<S>::couple(Tool& tool, ToolUnknown& unknown, const Frame& hand, Real dt) const noexcept {
+template <class S, class V>
+void TypedStepper<S, V>::couple(Tool& tool, ToolUnknown& unknown, const Frame& hand, Real dt) const noexcept {
     const Real stiffness = config_.coupling_stiffness_n_per_m;
     const Real damping = config_.coupling_damping_n_s_per_m;
     tool.frame.position = tool.position + dt * tool.velocity;
@@ -289,8 +330,8 @@ void TypedStepper<S>::couple(Tool& tool, ToolUnknown& unknown, const Frame& hand
 }
 
 /// Bonded nodes go where their tool takes them: a better point to linearise at than along their velocity.
-template <class S>
-void TypedStepper<S>::predict_bonded(std::size_t k) noexcept {
+template <class S, class V>
+void TypedStepper<S, V>::predict_bonded(std::size_t k) noexcept {
     Tool& tool = tools_[k];
     const std::uint32_t begin = model_.bonded[k].begin;
     for (std::size_t i = 0; i < tool.anchors.size(); ++i) {
@@ -302,14 +343,14 @@ void TypedStepper<S>::predict_bonded(std::size_t k) noexcept {
 
 /// The right-hand side dt^2 (elastic force + gravity - damping) at the prediction, in kg m. Bonded nodes also
 /// carry what accelerates them: their rows are the tool's reaction.
-template <class S>
-void TypedStepper<S>::linearise(const System<S>& system) noexcept {
+template <class S, class V>
+void TypedStepper<S, V>::linearise(const System<V>& system) noexcept {
     const Real dt = system.dt_s, dt2 = dt * dt;
     elements_.linearise(static_cast<S>(dt2), predicted_, load_);
     const std::size_t free = run_of(model_.free_count);
     fields_.add_scaled(free, load_.data(), static_cast<S>(dt / owed_dt_s_), owed_.data(), load_.data());
-    fields_.multiply(free, masses_.kg.data(), static_cast<S>(-system.inertia * beyond_share_), beyond_.data(),
-                     scratch_.data());
+    fields_.multiply(free, from_solve_.of(masses_.kg).data(), static_cast<S>(-system.inertia * beyond_share_),
+                     beyond_.data(), scratch_.data());
     fields_.add_scaled(free, load_.data(), S(1), scratch_.data(), load_.data());
     const Vec& gravity = model_.gravity_m_per_s2;
     if (!gravity.isZero(0)) {
@@ -332,8 +373,8 @@ void TypedStepper<S>::linearise(const System<S>& system) noexcept {
     }
 }
 
-template <class S>
-std::uint32_t TypedStepper<S>::solve_with_contact(const System<S>& system) noexcept {
+template <class S, class V>
+std::uint32_t TypedStepper<S, V>::solve_with_contact(const System<V>& system) noexcept {
     const bool close = preconditioner_.is_close(system.dt_s);
     const bool trusts = close && trusts_preconditioner_;
     const Real drift = trusts ? kVelocityTolerance_m_per_s : kHardVelocityTolerance_m_per_s;
@@ -347,21 +388,25 @@ std::uint32_t TypedStepper<S>::solve_with_contact(const System<S>& system) noexc
     std::fill(solution_.displacement.tools.begin(), solution_.displacement.tools.end(), Vec::Zero());
     iterations_ = 0;
     preconditioner_.begin_step(system);
-    for (int pass = 0; pass < config_.max_contact_passes; ++pass) {
+    const NodeField<V>& load = for_solve_.of(load_);
+    EarlyLook look(*this, limits);
+    for (int pass = 0; pass < config_.max_contact_passes;) {
         preconditioner_.hold(system);
-        solver_.solve(system, preconditioner_, load_, limits, solution_);
+        look.begin();
+        solver_.solve(system, preconditioner_, load, limits, solution_, unilateral_ ? &look : nullptr);
         iterations_ += static_cast<std::uint32_t>(solution_.iterations);
+        if (solution_.stopped) continue;
+        ++pass;
         std::uint32_t status = kStepOk;
         if (settled(limits, status)) return status;
     }
     return kStepContactCap;
 }
 
-/// Whether the step ends with this solve, and how.
-template <class S>
-bool TypedStepper<S>::settled(const SolverLimits& limits, std::uint32_t& status) noexcept {
-    if (!solution_.converged) status = kStepNotConverged;
-    if (!unilateral_) return true;
+/// What `judge` says of the contact in the solution of now.
+template <class S, class V>
+template <class Judge>
+auto TypedStepper<S, V>::judge(const SolverLimits& limits, bool early, Judge&& judge) noexcept {
     const NodeReader predicted(model_.rest_m, predicted_);
     const NodeReader solved(model_.rest_m, predicted_, solution_.displacement.nodes);
     Real force = 0;
@@ -373,20 +418,30 @@ bool TypedStepper<S>::settled(const SolverLimits& limits, std::uint32_t& status)
                           solution_.displacement.tools,
                           solution_.row_n,
                           travel_m(),
-                          limits.force_tolerance * force / touched,
-                          kConePerForceTolerance * limits.force_tolerance};
+                          (early ? kPullSeenEarly : 1) * limits.force_tolerance * force / touched,
+                          kConePerForceTolerance * limits.force_tolerance,
+                          early};
+    return judge(attempt);
+}
+
+/// Whether the step ends with this solve, and how.
+template <class S, class V>
+bool TypedStepper<S, V>::settled(const SolverLimits& limits, std::uint32_t& status) noexcept {
+    if (!solution_.converged) status = kStepNotConverged;
+    if (!unilateral_) return true;
     if (!solution_.converged) {
-        contact_.measure(attempt);
+        judge(limits, false, [&](const Attempt& attempt) { contact_.measure(attempt); });
         return true;
     }
-    const Contact::Revision revision = contact_.revise(attempt);
+    const Contact::Revision revision =
+        judge(limits, false, [&](const Attempt& attempt) { return contact_.revise(attempt); });
     if (revision == Contact::Revision::given_up) status = kStepContactCap;
     return revision != Contact::Revision::changed;
 }
 
 /// The farthest that a free node has come since the step before.
-template <class S>
-Real TypedStepper<S>::travel_m() const noexcept {
+template <class S, class V>
+Real TypedStepper<S, V>::travel_m() const noexcept {
     Real squared = 0;
     for (std::uint32_t i = 0; i < model_.free_count; ++i) {
         const Vec moved = predicted_.get(i) + solution_.displacement.nodes.get(i) - displacements_.get(i);
@@ -395,14 +450,14 @@ Real TypedStepper<S>::travel_m() const noexcept {
     return std::sqrt(squared);
 }
 
-template <class S>
-bool TypedStepper<S>::finite() const noexcept {
+template <class S, class V>
+bool TypedStepper<S, V>::finite() const noexcept {
     // A sum of squares is finite only if every term is. Divided by the smallest step, it covers the
     // velocities.
     const std::size_t free = run_of(model_.free_count);
-    const NodeField<S>& d = solution_.displacement.nodes;
+    const NodeField<V>& d = solution_.displacement.nodes;
     Real sum = static_cast<Real>(fields_.dot(free, predicted_.data(), predicted_.data())) +
-               static_cast<Real>(fields_.dot(free, d.data(), d.data()));
+               static_cast<Real>(solve_fields_.dot(free, d.data(), d.data()));
     for (std::size_t k = 0; k < tools_.size(); ++k) {
         sum += solution_.force_n[k].squaredNorm() + solution_.displacement.tools[k].squaredNorm() +
                tools_[k].frame.position.squaredNorm();
@@ -410,12 +465,12 @@ bool TypedStepper<S>::finite() const noexcept {
     return std::isfinite(sum / (kSmallestStep_s * kSmallestStep_s));
 }
 
-template <class S>
-void TypedStepper<S>::accept(const Frame* hands, Real dt, bool failed) noexcept {
+template <class S, class V>
+void TypedStepper<S, V>::accept(const Frame* hands, Real dt, bool failed) noexcept {
     const Real travel = unilateral_ ? travel_m() : 0;
     const std::size_t free = run_of(model_.free_count);
-    const NodeField<S>& d = solution_.displacement.nodes;
-    go_beyond(dt);
+    const NodeField<S>& d = from_solve_.of(solution_.displacement.nodes);
+    go_beyond(d, dt);
     fields_.add_scaled(free, velocities_.data(), static_cast<S>(1 / dt), beyond_.data(), velocities_.data());
     fields_.add_scaled(free, predicted_.data(), S(1), d.data(), displacements_.data());
     owe(dt);
@@ -445,11 +500,10 @@ void TypedStepper<S>::accept(const Frame* hands, Real dt, bool failed) noexcept 
     contact_.end_step(frames_, NodeReader(model_.rest_m, displacements_), travel);
 }
 
-template <class S>
-void TypedStepper<S>::go_beyond(Real dt) noexcept {
+template <class S, class V>
+void TypedStepper<S, V>::go_beyond(const NodeField<S>& d, Real dt) noexcept {
     const std::size_t free = run_of(model_.free_count);
-    fields_.add_scaled(free, solution_.displacement.nodes.data(), static_cast<S>(beyond_share_),
-                       beyond_.data(), scratch_.data());
+    fields_.add_scaled(free, d.data(), static_cast<S>(beyond_share_), beyond_.data(), scratch_.data());
     const Real ratio = (dt / beyond_dt_s_) * (dt / beyond_dt_s_);
     const Real expected = ratio * static_cast<Real>(fields_.dot(free, beyond_.data(), beyond_.data()));
     const Real agreed = static_cast<Real>(fields_.dot(free, beyond_.data(), scratch_.data()));
@@ -461,14 +515,14 @@ void TypedStepper<S>::go_beyond(Real dt) noexcept {
     beyond_dt_s_ = dt;
 }
 
-template <class S>
-void TypedStepper<S>::owe(Real dt) noexcept {
+template <class S, class V>
+void TypedStepper<S, V>::owe(Real dt) noexcept {
     std::copy_n(solver_.residual().data(), 4 * model_.free_count, owed_.data());
     owed_dt_s_ = dt;
 }
 
-template <class S>
-void TypedStepper<S>::find_results(Real dt) noexcept {
+template <class S, class V>
+void TypedStepper<S, V>::find_results(Real dt) noexcept {
     for (std::size_t k = 0; k < tools_.size(); ++k) {
         const Tool& tool = tools_[k];
         ToolResult& result = results_[k];
@@ -486,8 +540,8 @@ void TypedStepper<S>::find_results(Real dt) noexcept {
 }
 
 /// The nodes in a tool's hold with the forces on them, inertia and damping taken out.
-template <class S>
-void TypedStepper<S>::list_held(std::size_t k) noexcept {
+template <class S, class V>
+void TypedStepper<S, V>::list_held(std::size_t k) noexcept {
     held_.clear();
     const Tool& tool = tools_[k];
     const NodeReader positions(model_.rest_m, displacements_);
@@ -519,8 +573,8 @@ void TypedStepper<S>::list_held(std::size_t k) noexcept {
     }
 }
 
-template <class S>
-bool TypedStepper<S>::local_model(std::size_t tool, LocalModel& out) noexcept {
+template <class S, class V>
+bool TypedStepper<S, V>::local_model(std::size_t tool, LocalModel& out) noexcept {
     if (impedance_.empty() || tool >= tools_.size() || !(step_dt_s_ > 0)) return false;
     const NoDenormals no_denormals;
     list_held(tool);
@@ -533,8 +587,8 @@ bool TypedStepper<S>::local_model(std::size_t tool, LocalModel& out) noexcept {
     return true;
 }
 
-template <class S>
-StepResult TypedStepper<S>::result(std::uint32_t status) const noexcept {
+template <class S, class V>
+StepResult TypedStepper<S, V>::result(std::uint32_t status) const noexcept {
     StepResult result;
     static_cast<ToolResult&>(result) = results_[0];
     result.status = status;
@@ -542,8 +596,8 @@ StepResult TypedStepper<S>::result(std::uint32_t status) const noexcept {
     return result;
 }
 
-template <class S>
-StepResult TypedStepper<S>::refuse(std::uint32_t status) noexcept {
+template <class S, class V>
+StepResult TypedStepper<S, V>::refuse(std::uint32_t status) noexcept {
     for (std::size_t k = 0; k < tools_.size(); ++k) {
         results_[k] = {};
         results_[k].tool_position_m = to_array(tools_[k].position);
@@ -553,8 +607,8 @@ StepResult TypedStepper<S>::refuse(std::uint32_t status) noexcept {
     return result(status);
 }
 
-template <class S>
-void TypedStepper<S>::positions_m(double* out) const noexcept {
+template <class S, class V>
+void TypedStepper<S, V>::positions_m(double* out) const noexcept {
     for (std::size_t i = 0; i < model_.from_asset.size(); ++i) {
         const std::uint32_t node = model_.from_asset[i];
         const Vec x = model_.rest_m[node] + displacements_.get(node);
@@ -562,8 +616,8 @@ void TypedStepper<S>::positions_m(double* out) const noexcept {
     }
 }
 
-template <class S>
-void TypedStepper<S>::velocities_m_per_s(double* out) const noexcept {
+template <class S, class V>
+void TypedStepper<S, V>::velocities_m_per_s(double* out) const noexcept {
     for (std::size_t i = 0; i < model_.from_asset.size(); ++i) {
         const Vec v = velocities_.get(model_.from_asset[i]);
         std::copy_n(v.data(), 3, out + 3 * i);
@@ -583,14 +637,20 @@ void TypedStepper<S>::velocities_m_per_s(double* out) const noexcept {
 std::unique_ptr<Stepper> make_stepper(const Asset& asset, const SimulationConfig& config,
                                       const Numerics& numerics, SimdTarget target) {
     if (numerics.arithmetic == Precision::float32)
-        return std::make_unique<TypedStepper<float>>(asset, config, numerics, target);
-    return std::make_unique<TypedStepper<double>>(asset, config, numerics, target);
+        return std::make_unique<TypedStepper<float, float>>(asset, config, numerics, target);
+    if (numerics.arithmetic == Precision::mixed)
+        return std::make_unique<TypedStepper<double, float>>(asset, config, numerics, target);
+    return std::make_unique<TypedStepper<double, double>>(asset, config, numerics, target);
 }
 
 std::unique_ptr<Stepper> make_stepper(const Asset& asset, const SimulationConfig& config) {
     Numerics numerics = choose_numerics(asset);
     if (config.arithmetic == Arithmetic::float32) numerics.arithmetic = Precision::float32;
     if (config.arithmetic == Arithmetic::float64) numerics.arithmetic = Precision::float64;
+    if (config.arithmetic == Arithmetic::mixed) numerics.arithmetic = Precision::mixed;
+    if (config.arithmetic == Arithmetic::automatic && numerics.arithmetic == Precision::mixed &&
+        config.force_tolerance < kMixedForceTolerance)
+        numerics.arithmetic = Precision::float64;
     return make_stepper(asset, config, numerics, best_simd_target());
 }
 

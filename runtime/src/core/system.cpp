@@ -4,12 +4,10 @@
 namespace knead::core {
 
 template <class S>
-Masses<S>::Masses(const Model& model) : kg(run_of(model.rest_m.size() + 1)), per_kg(kg.size()) {
+Masses<S>::Masses(const Model& model) : kg(model.rest_m.size()), per_kg(model.rest_m.size()) {
     for (std::size_t i = 0; i < model.free_count; ++i) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            kg[4 * i + k] = static_cast<S>(model.mass_kg[i]);
-            per_kg[4 * i + k] = static_cast<S>(1 / model.mass_kg[i]);
-        }
+        kg.set(i, Vec::Constant(model.mass_kg[i]));
+        per_kg.set(i, Vec::Constant(1 / model.mass_kg[i]));
     }
 }
 
@@ -24,7 +22,7 @@ void System<S>::apply(Unknowns<S>& u, NodeField<S>& out) const noexcept {
     };
     carry(true);
     fields.multiply(out.size(), masses.kg.data(), static_cast<S>(inertia), u.nodes.data(), out.data());
-    elements.add_stiffness(static_cast<S>(dt_s * dt_s), u.nodes, out);
+    stiffness.add_product(static_cast<S>(dt_s * dt_s), u.nodes, out);
     carry(false);
 }
 

@@ -27,7 +27,7 @@ struct Unknowns {
 template <class S>
 struct Masses {
     explicit Masses(const Model& model);
-    AlignedArray<S> kg, per_kg;
+    NodeField<S> kg, per_kg;
 };
 
 /// The linear system of one step, A d = b with A = (1 + c dt) M + dt^2 K(R), never assembled.
@@ -38,7 +38,7 @@ struct Masses {
 template <class S>
 struct System {
     const Model& model;
-    Elements<S>& elements;
+    const Stiffness<S>& stiffness;
     const Masses<S>& masses;
     const FieldKernels<S>& fields;
     const std::vector<Constraint>& constraints;

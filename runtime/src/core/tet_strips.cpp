@@ -2,6 +2,7 @@
 #include "core/tet_strips.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace knead::core {
 namespace {
@@ -26,14 +27,17 @@ class FaceNeighbours {
   public:
     explicit FaceNeighbours(const std::vector<Element>& elements)
         : of_(elements.size(), {kNone, kNone, kNone, kNone}) {
-        const std::vector<Face> faces = sorted_faces(elements);
-        for (std::size_t k = 1; k < faces.size(); ++k) {
-            if (faces[k].nodes != faces[k - 1].nodes) continue;
-            const std::uint32_t a = faces[k - 1].element, b = faces[k].element;
-            ++k;  // a face has two sides, even where a careless mesh has more
-            if (!share_one_face(elements[a], elements[b])) continue;
-            *std::find(of_[a].begin(), of_[a].end(), kNone) = b;
-            *std::find(of_[b].begin(), of_[b].end(), kNone) = a;
+        std::vector<std::uint32_t> begin;
+        const std::vector<Face> faces = sorted_faces(elements, begin);
+        for (std::size_t node = 0; node + 1 < begin.size(); ++node) {
+            for (std::size_t k = begin[node] + 1; k < begin[node + 1]; ++k) {
+                if (faces[k].others != faces[k - 1].others) continue;
+                const std::uint32_t a = faces[k - 1].element, b = faces[k].element;
+                ++k;  // a face has two sides, even where a careless mesh has more
+                if (!share_one_face(elements[a], elements[b])) continue;
+                *std::find(of_[a].begin(), of_[a].end(), kNone) = b;
+                *std::find(of_[b].begin(), of_[b].end(), kNone) = a;
+            }
         }
     }
     template <class Use>
@@ -45,24 +49,45 @@ class FaceNeighbours {
 
   private:
     struct Face {
-        std::array<std::uint32_t, 3> nodes;
+        std::uint64_t others;  ///< its second and third node, ascending
         std::uint32_t element;
     };
-    static std::vector<Face> sorted_faces(const std::vector<Element>& elements) {
-        std::vector<Face> faces;
-        faces.reserve(4 * elements.size());
-        for (std::uint32_t e = 0; e < elements.size(); ++e) {
-            for (std::size_t without = 0; without < 4; ++without) {
-                Face face{{}, e};
-                for (std::size_t k = 0; k < 3; ++k)
-                    face.nodes[k] = elements[e].nodes[k < without ? k : k + 1];
-                std::sort(face.nodes.begin(), face.nodes.end());
-                faces.push_back(face);
-            }
+    /// By nodes, ascending, then by tetrahedron. @param begin out: [nodes + 1] where faces with that first
+    /// node begin
+    static std::vector<Face> sorted_faces(const std::vector<Element>& elements,
+                                          std::vector<std::uint32_t>& begin) {
+        std::vector<std::array<std::uint32_t, 4>> sorted(elements.size());
+        std::uint32_t nodes = 0;
+        for (std::size_t e = 0; e < elements.size(); ++e) {
+            sorted[e] = elements[e].nodes;
+            std::sort(sorted[e].begin(), sorted[e].end());
+            nodes = std::max(nodes, sorted[e][3] + 1);
         }
-        std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
-            return a.nodes != b.nodes ? a.nodes < b.nodes : a.element < b.element;
-        });
+        // Three of an element's faces have its first node as their first, one its second.
+        begin.assign(std::size_t{nodes} + 1, 0);
+        for (const auto& [a, b, c, d] : sorted) {
+            begin[a + 1] += 3;
+            ++begin[b + 1];
+        }
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+        std::vector<Face> faces(4 * elements.size());
+        const auto pack = [](std::uint32_t low, std::uint32_t high) {
+            return std::uint64_t{low} << 32U | high;
+        };
+        for (std::uint32_t e = 0; e < elements.size(); ++e) {
+            const auto [a, b, c, d] = sorted[e];
+            faces[next[a]++] = {pack(b, c), e};
+            faces[next[a]++] = {pack(b, d), e};
+            faces[next[a]++] = {pack(c, d), e};
+            faces[next[b]++] = {pack(c, d), e};
+        }
+        for (std::size_t node = 0; node < nodes; ++node) {
+            std::sort(faces.begin() + begin[node], faces.begin() + begin[node + 1],
+                      [](const Face& a, const Face& b) {
+                          return a.others != b.others ? a.others < b.others : a.element < b.element;
+                      });
+        }
         return faces;
     }
 

@@ -194,7 +194,7 @@ void ToolImpedance<S>::find(const System<S>& step, const Preconditioner<S>& prec
     out = {};
     if (held.empty()) return;
     const auto at = [&](Real inertia) {
-        return System<S>{step.model,       step.elements, step.masses, step.fields,
+        return System<S>{step.model,       step.stiffness, step.masses, step.fields,
                          step.constraints, still_,        step.dt_s,   step.dt_s * step.dt_s * inertia};
     };
     const Real damping = step.model.damping_per_s;

@@ -79,6 +79,7 @@ void TouchedSet::begin_step(const Frame& tool, const NodeReader& predicted, Real
         Candidate& candidate = candidates_[saved.index];
         candidate.saved = false;
         candidate.touch_switches = candidate.grips = 0;
+        candidate.caught_early = candidate.let_go_early = false;
     }
     journal_.clear();
     slip_stiffness_before_ = slip_stiffness_;
@@ -148,11 +149,17 @@ void TouchedSet::judge_held(std::size_t k, const Vec& row_n, const Attempt& atte
     Candidate& candidate = candidates_[k];
     // The object pushes the tool against its outward normal; along it, it would have to be pulled.
     if (candidate.plane.outward.dot(row_n) > attempt.pull_tolerance_n) {
+        if (attempt.early) {
+            if (candidate.let_go_early) return;
+            let_go(k, owners);
+            candidate.let_go_early = tally.changed = true;
+            return;
+        }
         if (!may_switch(candidate, tally)) return;
         let_go(k, owners);
         ++candidate.touch_switches;
         tally.changed = tally.touch_changed = true;
-    } else if (kind_ == ToolContact::coulomb) {
+    } else if (kind_ == ToolContact::coulomb && !attempt.early) {
         if (candidate.hold == Hold::stick) {
             judge_stick(candidate, row_n, attempt, tally);
         } else {
@@ -219,21 +226,34 @@ void TouchedSet::judge_open(std::size_t k, const Frame& tool, const Attempt& att
     if (candidate.beyond || owners[candidate.node] != kNobody) return;
     const Vec local = tool.to_local(attempt.solved(candidate.node));
     if (surface_.depth(local) <= gap_tolerance_m_ || surface_.beside(local)) return;
+    if (attempt.early) {
+        // A tool that sticks takes hold of the place where a node comes: that must be a solved one.
+        if (kind_ != ToolContact::frictionless || candidate.caught_early) return;
+        catch_node(k, local, owners);
+        candidate.caught_early = true;
+        tally.changed = true;
+        return;
+    }
     if (!may_switch(candidate, tally)) return;
-    save(k);
+    catch_node(k, local, owners);
     ++candidate.touch_switches;
+    tally.changed = tally.touch_changed = true;
+}
+
+void TouchedSet::catch_node(std::size_t k, const Vec& local, Owners& owners) noexcept {
+    save(k);
+    Candidate& candidate = candidates_[k];
     candidate.plane = surface_.closest(local);
     candidate.anchor = candidate.plane.place;
     candidate.hold = kind_ == ToolContact::frictionless ? Hold::slip : Hold::stick;
     owners[candidate.node] = index_;
     event_m_[k] = next_event_m_ = kHeld;
-    tally.changed = tally.touch_changed = true;
 }
 
 void TouchedSet::revise(const Frame& tool, const Attempt& attempt, Owners& owners, Tally& tally) noexcept {
     const Real limit = odometer_m_ + closing(tool, attempt.travel_m);
     if (next_event_m_ > limit) return;
-    if (kind_ == ToolContact::coulomb && holds_any()) measure_slip(tool, attempt.solved);
+    if (kind_ == ToolContact::coulomb && holds_any() && !attempt.early) measure_slip(tool, attempt.solved);
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
         if (event_m_[k] > limit) continue;
         const Candidate& candidate = candidates_[k];

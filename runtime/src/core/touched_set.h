@@ -30,6 +30,8 @@ struct Candidate {
     bool saved = false;               ///< its state from before the step is in the journal
     std::uint8_t touch_switches = 0;  ///< in this step: caught or let go
     std::uint8_t grips = 0;           ///< in this step: from slip back to stick
+    bool caught_early = false;        ///< in this step, by an early look
+    bool let_go_early = false;        ///< the same
     std::uint32_t row = 0;            ///< its constraint while it is held
     Real mass_kg = 0;
     Vec anchor = Vec::Zero();  ///< the tool's place it was at when the step began, or where it came since
@@ -43,9 +45,11 @@ struct Attempt {
     const NodeReader& solved;                     ///< where the nodes are now
     const std::vector<Vec>& tool_displacement_m;  ///< [tools] beyond the prediction; zero unless coupled
     const std::vector<Vec>& row_n;                ///< [constraints] of the held nodes, as in force_on_tool()
-    Real travel_m = 0;                            ///< no node has moved farther since the step before
-    Real pull_tolerance_n = 0;                    ///< a pull of a node up to this is the solver's error
-    Real cone_tolerance = 0;  ///< of a slipping node's friction, relative to what Coulomb's law says
+    Real travel_m = 0;          ///< no node has moved farther since the step before
+    Real pull_tolerance_n = 0;  ///< a pull of a node up to this is the solver's error
+    Real cone_tolerance = 0;    ///< of a slipping node's friction, relative to what Coulomb's law says
+    /// The solve is not at its end: only changes of touch are wanted, of a node one each way.
+    bool early = false;
 };
 
 /// What all tools together find in one revision.
@@ -112,6 +116,7 @@ class TouchedSet {
     void slide_what_pulls(const Vec& way, const Vec& force_n, const Attempt& attempt, Tally& tally) noexcept;
     void measure_slip(const Frame& tool, const NodeReader& solved) noexcept;
     void judge_slip(Candidate& candidate, const Vec& row_n, const Attempt& attempt, Tally& tally) noexcept;
+    void catch_node(std::size_t k, const Vec& local, Owners& owners) noexcept;
     [[nodiscard]] bool may_switch(const Candidate& candidate, Tally& tally) const noexcept;
     void let_go(std::size_t k, Owners& owners) noexcept;
     void save(std::size_t k) noexcept;

@@ -113,7 +113,7 @@ void visit_all(SimulationConfig& config, Visit& visit) {
     tools.resize(1);
     visit(name + ".tool", tools[0]);
     visit(name + ".expected_dt_s", expected_dt_s);
-    visit(name + ".arithmetic", arithmetic, Arithmetic::float64);
+    visit(name + ".arithmetic", arithmetic, Arithmetic::mixed);
     visit(name + ".force_tolerance", force_tolerance);
     visit(name + ".max_solver_iterations", solver_iterations);
     visit(name + ".max_contact_passes", contact_passes);

@@ -47,9 +47,9 @@ Status check_config(const SimulationConfig& config, const Asset& asset) {
     if (!(config.expected_dt_s >= kSmallestStep_s && config.expected_dt_s <= kLargestStep_s)) {
         return out_of_range("expected_dt_s", config.expected_dt_s, "0.25e-3 to 20e-3");
     }
-    if (config.arithmetic > Arithmetic::float64) {
+    if (config.arithmetic > Arithmetic::mixed) {
         return out_of_range("arithmetic", static_cast<double>(config.arithmetic),
-                            "automatic, float32 or float64");
+                            "automatic, float32, float64 or mixed");
     }
     if (!(config.force_tolerance > 0 && config.force_tolerance <= 0.1)) {
         return out_of_range("force_tolerance", config.force_tolerance, "above 0 and at most 0.1");

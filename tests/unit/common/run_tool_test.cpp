@@ -45,6 +45,20 @@ TEST(RunTool, Turns_every_outcome_into_its_exit_code) {
     EXPECT_EQ(run({}, [](ToolContext&) -> ExitCode { throw 7; }).exit_code, 70);
 }
 
+TEST(RunTool, Turns_an_error_of_the_libraries_into_the_exit_code_that_fits) {
+    const auto exit_of = [](ErrorCode error) {
+        return run({}, [&](ToolContext&) -> ExitCode {
+                   (void)value_or_throw(Result<Unit>(Error{error, "what", "where"}));
+                   return ExitCode::done;
+               })
+            .exit_code;
+    };
+    EXPECT_EQ(exit_of(ErrorCode::io_error), 3);
+    EXPECT_EQ(exit_of(ErrorCode::corrupt), 3);
+    EXPECT_EQ(exit_of(ErrorCode::cannot_write), 4);
+    EXPECT_EQ(exit_of(ErrorCode::out_of_memory), 5);
+}
+
 TEST(RunTool, Names_the_tool_before_an_error) {
     EXPECT_EQ(run({}, [](ToolContext&) -> ExitCode { fail_input("f.hdf: bad"); }).errors,
               "knead-test: error: f.hdf: bad\n");

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "evaluate/calibration.h"
+#include "evaluate/loads.h"
 #include "evaluate/numerical_coarsening.h"
 #include "evaluate/region_adapted.h"
 #include "evaluate/scene_object.h"
@@ -238,10 +239,51 @@ TEST(Calibration, Homogeneous_object_on_its_own_mesh_stays_as_it_is) {
         EXPECT_NEAR(modulus, kPa, 1e-6 * kPa);
 }
 
+/// Those of the fit's pads that the mesh can be asked for.
+std::vector<Load> pads_for(const TetMesh& mesh) {
+    const std::vector<Load> all = probe_pads(bounding_box(mesh.nodes_m));
+    const std::vector<bool> askable = askable_pads(all, mesh, held_bottom(mesh));
+    std::vector<Load> pads;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (askable[k]) pads.push_back(all[k]);
+    return pads;
+}
+
+/// The oracle ties the surface by elimination and solves each pad alone; the probes solve for the forces of the
+/// bond from the responses of a face.
+TEST(Calibration, Answer_to_a_pad_is_the_force_that_the_same_load_is_felt_with) {
+    const MaterialObject object = scenario_object(3, 1);
+    const std::vector<bool> held = held_bottom(object.mesh);
+    const std::vector<Load> pads = pads_for(object.mesh);
+    const Probes probes(object.mesh, held, bounding_box(object.mesh.nodes_m), pads);
+    const Probes::Answers answers = probes.ask(object.material, false);
+    StaticProblem problem(object.mesh, object.material);
+    ASSERT_EQ(answers.values_j.size(), 6 + pads.size());
+    for (std::size_t k = 0; k < pads.size(); k += 17) {
+        const AppliedLoad applied = apply_load(pads[k], object.mesh, held);
+        const double force_n = felt_force_n(applied, problem.solve_linear(applied.motion));
+        EXPECT_NEAR(answers.values_j[6 + k], force_n, 1e-8 * force_n) << k;  // two direct solves
+    }
+}
+
+TEST(Calibration, Pads_of_the_fit_are_none_of_the_loads) {
+    const Box box{{0, 0, 0}, {0.1, 0.1, 0.1}};
+    for (const Load& pad : probe_pads(box))
+        for (const char* name : {"pad4", "pad3", "tip2", "side"}) {
+            const SurfaceRegion& load = named_load(name, box).region;
+            const Point probe_size = pad.region.within.size_m();
+            const Point load_size = load.within.size_m();
+            bool same = pad.region.facing == load.facing;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                if (load.facing[axis] == 0 && std::abs(probe_size[axis] - load_size[axis]) > 1e-9) same = false;
+            EXPECT_FALSE(same) << name;
+        }
+}
+
 TEST(Calibration, Shares_of_a_probe_are_the_derivative_of_its_answer) {
     MaterialObject object = scenario_object(3, 1);
     const Box box = bounding_box(object.mesh.nodes_m);
-    const Probes probes(object.mesh, held_bottom(object.mesh), box);
+    const Probes probes(object.mesh, held_bottom(object.mesh), box, pads_for(object.mesh));
     const Probes::Answers answers = probes.ask(object.material, true);
     constexpr double kStep = 1e-4;
     constexpr std::size_t kTetrahedron = 100;
@@ -257,7 +299,8 @@ TEST(Calibration, Heterogeneous_object_answers_the_probes_better_than_the_volume
     const MaterialObject fine = scenario_object(6, 1);
     const LevelMesh level = level_of(fine, 4);
     const Calibration found = calibrate(fine, held_bottom(fine.mesh), level, held_bottom(level.mesh));
-    EXPECT_LT(found.worst_after, 0.5 * found.worst_before);
+    // More pads than a coarse mesh can answer to: what is left is spread, not gone.
+    EXPECT_LT(found.worst_after, 0.8 * found.worst_before);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "evaluate/cell_json.h"
 #include "evaluate/evaluation.h"
@@ -64,6 +66,16 @@ TEST(CachedAnswer, Bytes_of_an_answer_give_it_back) {
     EXPECT_EQ(back->force_n, 12.5);
     EXPECT_EQ(back->displacement_m, answer.displacement_m);
     EXPECT_EQ(back->problem, "none");
+}
+
+TEST(CachedAnswer, Text_of_other_types_is_no_answer_and_no_error) {
+    CellResult cell;
+    EXPECT_FALSE(from_cache(R"({"converged":1,"runtime_force_n":null})", cell));
+    EXPECT_FALSE(times_from_cache(R"({"load_ms":null,"asset_bytes":1,"step":5})", cell));
+    const double no_number = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& head : {std::array{1.0, 2.0, no_number, 0.0}, std::array{1.0, 2.0, 3.0, no_number},
+                             std::array{1.0, 2.0, 3.0, 1e300}, std::array{1.0, 2.0, 1e300, 0.0}})
+        EXPECT_FALSE(answer_of({reinterpret_cast<const char*>(head.data()), sizeof head}).has_value());
 }
 
 TEST(CachedAnswer, Bytes_that_end_too_early_are_refused) {

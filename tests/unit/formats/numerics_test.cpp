@@ -37,8 +37,9 @@ TEST(Choice_of_numerics, Changes_exactly_at_its_limits) {
         {1296, 100, 0.495, P::float32, C::factor, S::fixed16},
         {1296, 100, 0.496, P::float32, C::factor, S::float32},
         {1296, 1e4, 0.3, P::float32, C::factor, S::fixed16},
-        {1296, 1.001e4, 0.3, P::float64, C::factor, S::fixed16},
-        {1296, 1e6, 0.3, P::float64, C::factor, S::fixed16},
+        {1296, 1.001e4, 0.3, P::mixed, C::factor, S::fixed16},
+        {1296, 1e6, 0.3, P::mixed, C::factor, S::fixed16},
+        {1296, 1e6, 0.496, P::float64, C::factor, S::float32},
         {1296, 1.001e6, 0.3, P::float64, C::factor, S::float32},
         {1296, 1e9, 0.3, P::float64, C::factor, S::float32},
         {1296, 1.001e9, 0.49, P::float64, C::factor, S::float64},
@@ -71,7 +72,8 @@ Asset with_a_stiff_path(double contrast) {
     return asset;
 }
 
-// Stiff islands need double precision; a stiff phase that carries the force from tool to support does not.
+// Stiff islands need a state in double precision, or all of it; a stiff phase that carries the force from
+// tool to support does not.
 TEST(Choice_of_numerics, Takes_single_precision_where_the_path_of_the_force_is_stiff) {
     for (const double contrast : {1e5, 1e6, 1e9}) {
         Asset asset = with_a_stiff_path(contrast);
@@ -83,8 +85,19 @@ TEST(Choice_of_numerics, Takes_single_precision_where_the_path_of_the_force_is_s
         EXPECT_EQ(chosen.arithmetic_reason, NumericsReason::stiff_path);
         EXPECT_EQ(chosen.factor_storage, contrast > 1e6 ? FactorStorage::float32 : FactorStorage::fixed16);
         asset.free_node_count = static_cast<std::uint32_t>(asset.nodes_m.size());  // nothing holds it
-        EXPECT_EQ(choose_numerics(asset).arithmetic, Precision::float64);
+        EXPECT_EQ(choose_numerics(asset).arithmetic, contrast > 1e6 ? Precision::float64 : Precision::mixed);
     }
+}
+
+TEST(Choice_of_numerics, Takes_all_in_double_precision_for_islands_that_are_nearly_incompressible) {
+    Asset asset = with_a_stiff_path(1e6);
+    asset.free_node_count = static_cast<std::uint32_t>(asset.nodes_m.size());  // nothing holds it
+    for (PaletteEntry& entry : asset.palette)
+        entry.poissons_ratio = 0.495;
+    EXPECT_EQ(choose_numerics(asset).arithmetic, Precision::mixed);
+    for (PaletteEntry& entry : asset.palette)
+        entry.poissons_ratio = 0.499;
+    EXPECT_EQ(choose_numerics(asset).arithmetic, Precision::float64);
 }
 
 TEST(Choice_of_numerics, Does_not_look_at_palette_entries_that_no_tetrahedron_uses) {

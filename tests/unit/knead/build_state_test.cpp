@@ -79,6 +79,8 @@ TEST_F(State, That_is_damaged_counts_as_empty) {
     EXPECT_FALSE(up_to_date());
     write(folder_ / ".knead-build.json", "{{{");
     EXPECT_FALSE(up_to_date());
+    write(folder_ / ".knead-build.json", "{\"schema\": 5}");
+    EXPECT_FALSE(up_to_date());
 }
 
 TEST_F(State, Reads_depfiles_with_escaped_blanks) {

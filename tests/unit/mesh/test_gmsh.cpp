@@ -9,8 +9,8 @@
 
 #include "mesh/gmsh_primitives.h"
 #include "mesh/import.h"
-#include "mesh/mesh_quality.h"
 #include "mesh/outline.h"
+#include "quality/mesh_quality.h"
 #include "unit/mesh/samples.h"
 
 namespace knead::tools {

@@ -23,6 +23,12 @@ TEST(Medit, Keeps_tetrahedra_and_references_and_counts_other_cells) {
     EXPECT_EQ(mesh.other_cells[0], (std::pair<std::string, std::size_t>("Triangles", 1)));
 }
 
+TEST(Medit, Vertex_before_the_first_is_out_of_range_and_not_an_overflow) {
+    std::string text = small_medit();
+    text.replace(text.find("1 2 3 4 10"), 1, "-9223372036854775808");
+    EXPECT_EQ(read_medit(text).tetrahedra[0][0], -1);
+}
+
 TEST(Medit, Script_text_and_broken_sections_are_refused) {
     KNEAD_EXPECT_REFUSAL(read_medit(small_medit() + "SystemCall \"x\";"), bad_input, "after its End");
     KNEAD_EXPECT_REFUSAL(read_medit("MeshVersionFormatted 2\nSystemCall \"x\";\n"), bad_input, "SystemCall");
@@ -76,6 +82,19 @@ TEST(Vtk, Version_5_in_binary_gives_the_same_mesh) {
     EXPECT_EQ(mesh.cell_arrays[0].values, (std::vector<double>{2.5, 3.5}));
 }
 
+TEST(Vtk, Numbers_that_are_no_index_name_no_node_and_no_type) {
+    for (const char* corner : {"nan", "1e300", "-1", "1.5"}) {
+        std::string text = small_vtk();
+        text.replace(text.find("4 1 2 3 4") + 8, 1, corner);
+        EXPECT_EQ(read_vtk(text).tetrahedra[1][3], -1) << corner;
+    }
+    for (const char* type : {"nan", "1e300", "256"}) {
+        std::string text = small_vtk();
+        text.replace(text.find("CELL_TYPES 3\n5") + 13, 1, type);
+        KNEAD_EXPECT_REFUSAL(read_vtk(text), bad_input, "for its type");
+    }
+}
+
 TEST(Vtk, Broken_content_is_refused) {
     KNEAD_EXPECT_REFUSAL(read_vtk(small_vtk() + "SystemCall \"x\";\n"), bad_input, "SystemCall");
     KNEAD_EXPECT_REFUSAL(read_vtk("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"), bad_input,
@@ -92,6 +111,13 @@ TEST(Outline, Reads_corners_with_commas_comments_and_a_repeated_first_corner) {
     const auto corners = read_outline("# x,y\n0,0\n 1.5, 0 \n1,1 # corner\n\n0 1\n0,0\n");
     ASSERT_EQ(corners.size(), 4U);
     EXPECT_EQ(corners[1], (std::array<double, 2>{1.5, 0}));
+}
+
+TEST(Outline, Of_more_corners_than_can_be_compared_is_refused) {
+    std::string text;
+    for (int i = 0; i <= 10'000; ++i)
+        text += std::to_string(i) + ",0\n";
+    KNEAD_EXPECT_REFUSAL(read_outline(text), bad_input, "line 10001: more than 10000 corners");
 }
 
 TEST(Outline, That_is_broken_or_crosses_itself_is_refused) {

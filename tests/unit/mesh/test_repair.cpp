@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "mesh/geometry.h"
-#include "mesh/mesh_quality.h"
 #include "mesh/repair.h"
 #include "mesh/size_search.h"
+#include "quality/mesh_quality.h"
 #include "unit/mesh/samples.h"
 
 namespace knead::tools {
@@ -160,15 +160,6 @@ TEST(Repair, Tells_other_cells_and_refuses_a_mesh_without_tetrahedra) {
     raw.tetrahedra.clear();
     KNEAD_EXPECT_REFUSAL(to_tet_mesh(raw, {}), bad_input, "no linear tetrahedra, only 3 hexahedra, 2 lines");
     KNEAD_EXPECT_REFUSAL(to_tet_mesh(RawMesh{}, {}), bad_input, "no tetrahedra");
-}
-
-TEST(Quality, Of_the_regular_tetrahedron_is_one_and_of_the_corner_tetrahedron_known) {
-    constexpr double kRounding = 1e-12;
-    EXPECT_NEAR(radius_ratio({1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}), 1, kRounding);
-    // Corner tetrahedron of the unit cube: r = 1 / (3 + sqrt 3), R = sqrt(3) / 2.
-    EXPECT_NEAR(radius_ratio({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}),
-                3 / (3 + std::sqrt(3)) / (std::sqrt(3) / 2), kRounding);
-    EXPECT_EQ(radius_ratio({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}), 0);
 }
 
 TEST(Quality, Counts_bodies_and_names_slivers_and_unlikely_sizes) {

@@ -51,6 +51,12 @@ TEST(Veg, Includes_stand_where_they_are_named) {
                          bad_input, "deeply");
 }
 
+TEST(Veg, Vertex_before_the_first_is_out_of_range_and_not_an_overflow) {
+    std::string text = small_veg();
+    text.replace(text.find("1 1 2 3 4\n"), 10, "1 -9223372036854775808 2 3 4\n");
+    EXPECT_EQ(read_veg(text, no_includes).tetrahedra[0][0], -1);
+}
+
 TEST(Veg, Broken_content_is_refused_with_its_line) {
     const auto with = [](const std::string& old_text, const std::string& new_text) {
         std::string text = small_veg();

@@ -212,7 +212,9 @@ struct Subject {
         config.max_solver_iterations = c.max_iterations;
         config.with_torque = true;
         Numerics numerics = choose_numerics(asset);
-        numerics.arithmetic = c.arithmetic == Arithmetic::float64 ? Precision::float64 : Precision::float32;
+        numerics.arithmetic = c.arithmetic == Arithmetic::float64 ? Precision::float64
+                              : c.arithmetic == Arithmetic::mixed ? Precision::mixed
+                                                                  : Precision::float32;
         numerics.preconditioner = c.preconditioner;
         stepper = core::make_stepper(asset, config, numerics, core::best_simd_target());
     }
@@ -259,6 +261,8 @@ TEST_P(Quiet_step, makes_no_system_call_takes_no_lock_and_allocates_nothing) {
 constexpr Case kCases[] = {
     {"bonded", ToolShape::plate, ToolContact::bonded},
     {"bonded_double", ToolShape::plate, ToolContact::bonded, Arithmetic::float64},
+    {"bonded_mixed", ToolShape::plate, ToolContact::bonded, Arithmetic::mixed},
+    {"coulomb_plate_mixed", ToolShape::plate, ToolContact::coulomb, Arithmetic::mixed},
     {"bonded_coupled", ToolShape::plate, ToolContact::bonded, Arithmetic::float32, 800},
     {"sphere", ToolShape::sphere, ToolContact::frictionless},
     {"sphere_double", ToolShape::sphere, ToolContact::frictionless, Arithmetic::float64},

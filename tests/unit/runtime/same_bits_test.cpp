@@ -54,6 +54,8 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
 constexpr Case kCases[] = {
     {"bonded", ToolShape::plate, ToolContact::bonded},
     {"bonded_double", ToolShape::plate, ToolContact::bonded, Precision::float64},
+    {"bonded_mixed", ToolShape::plate, ToolContact::bonded, Precision::mixed},
+    {"sphere_coulomb_mixed", ToolShape::sphere, ToolContact::coulomb, Precision::mixed},
     {"sphere_coulomb", ToolShape::sphere, ToolContact::coulomb},
     {"sphere_coulomb_double", ToolShape::sphere, ToolContact::coulomb, Precision::float64},
     {"plate_sticking_coupled", ToolShape::plate, ToolContact::sticking, Precision::float32,

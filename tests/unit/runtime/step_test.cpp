@@ -68,6 +68,68 @@ TEST(Step, of_the_pressed_cube_settles_at_the_equilibrium_force) {
     EXPECT_EQ(result.touched_nodes, 49u);
 }
 
+/// Cells of `contrast` times the elasticity in a soft cube, which share no node with one another nor with the
+/// border: the force is small against the rounding of their rows.
+Asset islands(double contrast) {
+    constexpr std::uint32_t n = 6;
+    Asset asset = pressed_cube(n);
+    asset.palette = {{4e3, 0.49, 1000}, {contrast * 4e3, 0.49, 1000}};
+    for (std::size_t t = 0; t < asset.tetrahedra.size(); ++t) {
+        Vec middle = Vec::Zero();
+        for (const std::uint32_t node : asset.tetrahedra[t])
+            middle += to_vec(asset.nodes_m[node]) / 4;
+        const Eigen::Vector3i cell = (middle * (n / 0.1)).cast<int>();
+        asset.palette_index[t] = (cell.array() == 1 || cell.array() == 3).all() ? 1 : 0;
+    }
+    return asset;
+}
+
+/// Forces of a press with a twist of the tool, in long steps: islands turn.
+std::vector<Vec> forces_in(const Asset& asset, Arithmetic arithmetic, double dt_s, double force_tolerance) {
+    SimulationConfig config;
+    config.arithmetic = arithmetic;
+    config.expected_dt_s = dt_s;
+    config.force_tolerance = force_tolerance;
+    Stepper stepper(asset, config);
+    std::vector<Vec> forces;
+    for (int i = 1; i <= 30; ++i) {
+        const double share = std::min(1.0, i / 20.0);
+        Pose pose = moved(asset, {0.003 * share, 0, -0.02 * share});
+        const auto& o = asset.tools[0].rest_orientation_wxyz;
+        const Eigen::Quaterniond turned = Eigen::Quaterniond(Eigen::AngleAxisd(0.3 * share, Vec::UnitZ())) *
+                                          Eigen::Quaterniond(o[0], o[1], o[2], o[3]);
+        pose.orientation_wxyz = {turned.w(), turned.x(), turned.y(), turned.z()};
+        const StepResult result = stepper.step(pose, dt_s);
+        EXPECT_EQ(result.status, kStepOk) << "step " << i;
+        forces.push_back(to_vec(result.force_n));
+    }
+    return forces;
+}
+
+double largest_relative_difference(const std::vector<Vec>& a, const std::vector<Vec>& exact) {
+    double result = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        result = std::max(result, (a[i] - exact[i]).norm() / exact[i].norm());
+    return result;
+}
+
+TEST(Step, in_mixed_arithmetic_is_right_where_single_precision_is_not) {
+    // Half of what a step may err by the default tolerance.
+    constexpr double kMixedError = 1.5e-4;
+    const Asset asset = islands(1e6);
+    for (const double dt_s : {10e-3, 1e-3}) {
+        const auto exact = forces_in(asset, Arithmetic::float64, dt_s, 1e-6);
+        EXPECT_LT(largest_relative_difference(forces_in(asset, Arithmetic::mixed, dt_s, 1e-4), exact),
+                  kMixedError)
+            << dt_s;
+    }
+    const double dt_s = 10e-3;
+    const auto exact = forces_in(asset, Arithmetic::float64, dt_s, 1e-6);
+    EXPECT_GT(largest_relative_difference(forces_in(asset, Arithmetic::float32, dt_s, 1e-4), exact),
+              2 * kMixedError)
+        << "or the case shows nothing";
+}
+
 TEST(Step, with_the_default_tolerance_settles_within_a_thousandth) {
     const Asset asset = pressed_cube();
     Stepper stepper(asset, {});

@@ -120,6 +120,15 @@ TEST_F(SceneFile, That_is_not_toml_is_refused_with_the_line) {
     EXPECT_THAT(error_of("name = \"cube\"\n= 3\n"), HasSubstr(".toml:2: not valid TOML"));
 }
 
+/// Such a file once ended the stack: every part of a key is a table inside the one before.
+TEST_F(SceneFile, With_a_key_of_very_many_parts_is_refused_with_its_line) {
+    std::string deep = "name = \"cube\"\n[a";
+    for (int i = 0; i < 200'000; ++i)
+        deep += ".a";
+    EXPECT_THAT(error_of(deep + "]\n"), HasSubstr(".toml:2: a key of more than 64 parts"));
+    EXPECT_EQ(parse_toml("[a.b.c]\nd = [0.1, 0.2]\n", "x").size(), 1U);
+}
+
 TEST_F(SceneFile, That_is_missing_is_refused) {
     EXPECT_THROW((void)read_scene("/nonexistent/scene.toml"), ToolError);
 }

@@ -11,7 +11,11 @@
 namespace knead {
 
 /// Numbers of the element pass and of the conjugate gradients.
-enum class Precision : std::uint8_t { float32 = 0, float64 = 1 };
+enum class Precision : std::uint8_t {
+    float32 = 0,
+    float64 = 1,
+    mixed = 2  ///< the state and the element pass in float64, the conjugate gradients in float32
+};
 
 /// What the conjugate gradients of a step are preconditioned with. Where dt is so short that mass outweighs
 /// stiffness, the runtime takes the sparse inverse in any case.
@@ -58,14 +62,20 @@ struct Numerics {
 /// are stiff: with stiff islands in soft matter all in float32 the force is right to 1e-3 at 1e4 and wrong by
 /// 0.18 at 1e6. With a stiff phase from tool to support float32 holds at any contrast (measured up to 1e9).
 inline constexpr double kFloat32MaxPressContrast = 1e4;
+/// Press contrast. With the state in float64 what is left is the rounding of the conjugate gradients, which
+/// grows with the contrast: of the force 3e-5 at 1e6, 3e-4 at 1e7 and 3e-3 at 1e8 (islands, nu 0.49, dt 10
+/// ms).
+inline constexpr double kMixedMaxPressContrast = 1e6;
+/// And as nu comes near 0.5: 1e-4 at 0.495, 1e-2 at 0.499 (islands of 1e6, dt 10 ms).
+inline constexpr double kMixedMaxPoissonsRatio = 0.495;
 /// Contrast. A column of the factor in 16 bits keeps 1 / 32,768 of its largest entry. That costs hardly any
 /// iterations up to 1e6 (44 against 43 with a double factor, nu 0.49, dt 10 ms), and it is read in half the
 /// time.
 inline constexpr double kFixed16FactorMaxContrast = 1e6;
 /// Near 0.5 the factor's entries span 1 / (1 - 2 nu) beside the contrast. Measured up to 0.49.
 inline constexpr double kFixed16FactorMaxPoissonsRatio = 0.495;
-/// Press contrast. A float32 factor only preconditions, so it may be worse than the arithmetic. Measured up to
-/// 1e9: with islands it takes as many iterations as one in double, each of them cheaper.
+/// Press contrast. A float32 factor only preconditions, so it may be worse than the arithmetic. Measured up
+/// to 1e9: with islands it takes as many iterations as one in double, each of them cheaper.
 inline constexpr double kFloat32FactorMaxPressContrast = 1e9;
 /// Beyond this the factor outgrows the cache of a core, and reading it costs more than the iterations it
 /// saves.
@@ -92,7 +102,11 @@ inline constexpr double kLaplacianMaxContrast = 1e3;
     chosen.tetrahedra = asset.tetrahedra.size();
 
     if (chosen.press_contrast > kFloat32MaxPressContrast) {
-        chosen.arithmetic = Precision::float64;
+        // Measured with a factor only.
+        const bool mixed = chosen.tetrahedra <= kFactorMaxTetrahedra &&
+                           chosen.press_contrast <= kMixedMaxPressContrast &&
+                           chosen.max_poissons_ratio <= kMixedMaxPoissonsRatio;
+        chosen.arithmetic = mixed ? Precision::mixed : Precision::float64;
         chosen.arithmetic_reason = NumericsReason::high_contrast;
     } else if (chosen.contrast > kFloat32MaxPressContrast) {
         chosen.arithmetic_reason = NumericsReason::stiff_path;

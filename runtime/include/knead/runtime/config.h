@@ -11,7 +11,8 @@ namespace knead {
 enum class Arithmetic : std::uint8_t {
     automatic = 0,  ///< as knead/formats/numerics.h chooses for the asset
     float32 = 1,
-    float64 = 2
+    float64 = 2,
+    mixed = 3  ///< the state in float64, the solve in float32
 };
 
 /// Choices of the application that do not belong to the asset.

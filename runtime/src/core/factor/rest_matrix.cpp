@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace knead::core {
 namespace {
@@ -10,57 +11,85 @@ namespace {
 constexpr std::uint32_t kNone = 0xffffffff;
 constexpr int kPairs = 10;
 
-/// Rows of each column with repetitions, then each once and sorted.
-MatrixPattern build_pattern(const Model& model) {
+/// The elements around each unknown node, in compressed rows.
+struct Surroundings {
+    std::vector<std::uint32_t> begin, elements;
+
+    explicit Surroundings(const Model& model) : begin(model.free_count + 1, 0) {
+        const auto for_each = [&](auto&& visit) {
+            for (std::uint32_t e = 0; e < model.elements.size(); ++e)
+                for (const std::uint32_t node : model.elements[e].nodes)
+                    if (node < model.free_count) visit(node, e);
+        };
+        for_each([&](std::uint32_t node, std::uint32_t) { ++begin[node + 1]; });
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        elements.resize(begin.back());
+        std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+        for_each([&](std::uint32_t node, std::uint32_t e) { elements[next[node]++] = e; });
+    }
+};
+
+/// Row after row, so that the rows of each column come in order. @param use called with row and column, once
+/// for each entry
+template <class Use>
+void for_each_entry(const Model& model, const Surroundings& around, Use&& use) {
+    std::vector<std::uint32_t> seen(model.free_count, kNone);
+    for (std::uint32_t i = 0; i < model.free_count; ++i) {
+        seen[i] = i;
+        use(i, i);
+        for (std::uint32_t k = around.begin[i]; k < around.begin[i + 1]; ++k) {
+            for (const std::uint32_t j : model.elements[around.elements[k]].nodes) {
+                if (j >= i || seen[j] == i) continue;
+                seen[j] = i;
+                use(i, j);
+            }
+        }
+    }
+}
+
+/// Number of the pair of an element's nodes a and b, in the order (0, 0), (0, 1), ..., (3, 3).
+int pair_number(int a, int b) {
+    const int low = std::min(a, b), high = std::max(a, b);
+    return low * (7 - low) / 2 + high;
+}
+
+/// @param pairs out: [elements][kPairs] entry of each pair of nodes, kNone unless both are unknowns
+MatrixPattern build_pattern(const Model& model, std::vector<std::uint32_t>& pairs) {
     const std::uint32_t n = model.free_count;
+    const Surroundings around(model);
     MatrixPattern pattern;
     pattern.node_count = n;
-    std::vector<std::uint32_t> ends(n + 1, 0);
-    const auto for_pairs = [&](auto&& visit) {
-        for (const Element& element : model.elements)
-            for (const std::uint32_t i : element.nodes)
-                for (const std::uint32_t j : element.nodes)
-                    if (j < i && i < n) visit(i, j);
-    };
-    for_pairs([&](std::uint32_t, std::uint32_t j) { ++ends[j + 1]; });
-    for (std::uint32_t j = 0; j < n; ++j)
-        ends[j + 1] += ends[j];
-    std::vector<std::uint32_t> repeated(ends[n]);
-    std::vector<std::uint32_t> next(ends.begin(), ends.end() - (n > 0 ? 1 : 0));
-    for_pairs([&](std::uint32_t i, std::uint32_t j) { repeated[next[j]++] = i; });
-
     pattern.column_begin.assign(n + 1, 0);
-    pattern.row_nodes.reserve(n + repeated.size() / 2);
-    std::vector<std::uint32_t> seen(n, kNone);
-    for (std::uint32_t j = 0; j < n; ++j) {
-        pattern.row_nodes.push_back(j);
-        for (std::uint32_t k = ends[j]; k < ends[j + 1]; ++k) {
-            if (seen[repeated[k]] == j) continue;
-            seen[repeated[k]] = j;
-            pattern.row_nodes.push_back(repeated[k]);
+    for_each_entry(model, around, [&](std::uint32_t, std::uint32_t j) { ++pattern.column_begin[j + 1]; });
+    std::partial_sum(pattern.column_begin.begin(), pattern.column_begin.end(), pattern.column_begin.begin());
+    pattern.row_nodes.resize(pattern.column_begin.back());
+    std::vector<std::uint32_t> next(pattern.column_begin.begin(), pattern.column_begin.end() - 1);
+    for_each_entry(model, around,
+                   [&](std::uint32_t i, std::uint32_t j) { pattern.row_nodes[next[j]++] = i; });
+
+    // Row after row again: the entry that a column comes to next is that of this row.
+    std::copy(pattern.column_begin.begin(), pattern.column_begin.end() - 1, next.begin());
+    pairs.assign(model.elements.size() * kPairs, kNone);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t k = around.begin[i]; k < around.begin[i + 1]; ++k) {
+            const std::uint32_t e = around.elements[k];
+            const auto& nodes = model.elements[e].nodes;
+            const auto own = static_cast<int>(std::find(nodes.begin(), nodes.end(), i) - nodes.begin());
+            for (int b = 0; b < 4; ++b) {
+                const std::uint32_t j = nodes[static_cast<std::size_t>(b)];
+                if (j > i) continue;
+                while (pattern.row_nodes[next[j]] < i)
+                    ++next[j];
+                pairs[std::size_t{e} * kPairs + static_cast<std::size_t>(pair_number(own, b))] = next[j];
+            }
         }
-        std::sort(pattern.row_nodes.begin() + pattern.column_begin[j] + 1, pattern.row_nodes.end());
-        pattern.column_begin[j + 1] = static_cast<std::uint32_t>(pattern.row_nodes.size());
     }
     return pattern;
 }
 
-std::uint32_t find_entry(const MatrixPattern& pattern, std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t row = std::max(a, b), column = std::min(a, b);
-    if (row >= pattern.node_count) return kNone;
-    const auto begin = pattern.row_nodes.begin() + pattern.column_begin[column];
-    const auto end = pattern.row_nodes.begin() + pattern.column_begin[column + 1];
-    return static_cast<std::uint32_t>(std::lower_bound(begin, end, row) - pattern.row_nodes.begin());
-}
-
 }  // namespace
 
-RestMatrix::RestMatrix(const Model& model, Kind kind) : kind_(kind), pattern_(build_pattern(model)) {
-    pairs_.reserve(model.elements.size() * kPairs);
-    for (const Element& element : model.elements)
-        for (int a = 0; a < 4; ++a)
-            for (int b = a; b < 4; ++b)
-                pairs_.push_back(find_entry(pattern_, element.nodes[a], element.nodes[b]));
+RestMatrix::RestMatrix(const Model& model, Kind kind) : kind_(kind), pattern_(build_pattern(model, pairs_)) {
     for (std::uint32_t i = 0; i < pattern_.node_count; ++i)
         mass_kg_.push_back(static_cast<double>(model.mass_kg[i]));
     const auto block = static_cast<std::size_t>(block_size());

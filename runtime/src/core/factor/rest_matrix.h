@@ -39,8 +39,8 @@ class RestMatrix {
     void add_element(const Element& element, const std::uint32_t* pairs, const Mat* rotation) noexcept;
 
     Kind kind_;
-    MatrixPattern pattern_;
     std::vector<std::uint32_t> pairs_;  ///< [elements][10] entry of nodes (a, b), a <= b, of the element
+    MatrixPattern pattern_;             ///< made together with them
     std::vector<double> mass_kg_;       ///< [node_count]
     std::vector<double> stiffness_, values_;
 };

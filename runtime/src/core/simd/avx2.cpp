@@ -11,9 +11,15 @@
 namespace knead::core {
 
 extern const Kernels kAvx2Kernels;
-const Kernels kAvx2Kernels = {
-    avx2::factor_kernels(),         avx2::element_kernels<float>(),  avx2::element_kernels<double>(),
-    avx2::field_kernels<float>(),   avx2::field_kernels<double>(),   avx2::sparse_kernels<float>(),
-    avx2::sparse_kernels<double>(), avx2::rotation_kernels<float>(), avx2::rotation_kernels<double>()};
+const Kernels kAvx2Kernels = {avx2::factor_kernels(),
+                              avx2::element_kernels<float, float>(),
+                              avx2::element_kernels<double, float>(),
+                              avx2::element_kernels<double, double>(),
+                              avx2::field_kernels<float>(),
+                              avx2::field_kernels<double>(),
+                              avx2::sparse_kernels<float>(),
+                              avx2::sparse_kernels<double>(),
+                              avx2::rotation_kernels<float>(),
+                              avx2::rotation_kernels<double>()};
 
 }  // namespace knead::core

@@ -11,9 +11,15 @@
 namespace knead::core {
 
 extern const Kernels kAvx512Kernels;
-const Kernels kAvx512Kernels = {
-    avx512::factor_kernels(),         avx512::element_kernels<float>(),  avx512::element_kernels<double>(),
-    avx512::field_kernels<float>(),   avx512::field_kernels<double>(),   avx512::sparse_kernels<float>(),
-    avx512::sparse_kernels<double>(), avx512::rotation_kernels<float>(), avx512::rotation_kernels<double>()};
+const Kernels kAvx512Kernels = {avx512::factor_kernels(),
+                                avx512::element_kernels<float, float>(),
+                                avx512::element_kernels<double, float>(),
+                                avx512::element_kernels<double, double>(),
+                                avx512::field_kernels<float>(),
+                                avx512::field_kernels<double>(),
+                                avx512::sparse_kernels<float>(),
+                                avx512::sparse_kernels<double>(),
+                                avx512::rotation_kernels<float>(),
+                                avx512::rotation_kernels<double>()};
 
 }  // namespace knead::core

@@ -114,13 +114,13 @@ void fall_back(const Matrices3<S, W>& f, Quaternions<S, W>& q, int lane, Rotatio
     q.z[lane] = quaternion[3];
 }
 
-/// Newton steps until all lanes are done; lanes where they lead nowhere fall back.
+/// Newton steps until all lanes are done; lanes where they lead nowhere fall back. @param turn the first one
 template <class S, int W>
-[[gnu::noinline]] void find_rotations(const Matrices3<S, W>& f, Quaternions<S, W>& q,
+[[gnu::noinline]] void find_rotations(const Matrices3<S, W>& f, Turns<S, W> turn, Quaternions<S, W>& q,
                                       RotationFallback<S> fallback) {
     using V = Vector<S, W>;
     for (int step = 0; step < kNewtonSteps; ++step) {
-        const Turns<S, W> turn = newton_step(f, rotation_matrices(q));
+        if (step > 0) turn = newton_step(f, rotation_matrices(q));
         const auto valid = is_definite(turn) & (turn.half2 < kLargeTurn<S> * kLargeTurn<S> / 4);
         const auto done = valid & (turn.half2 < kSmallTurn<S> * kSmallTurn<S> / 4);
         const V zero{};
@@ -136,32 +136,37 @@ template <class S, int W>
     }
 }
 
-template <class S, int W>
+/// A number stands at distances of `Stride` from the next, in this and all that follows.
+template <class S, int W, int Stride>
 inline Quaternions<S, W> load_quaternions(const S* from) {
     using V = Vector<S, W>;
-    return {load<V>(from), load<V>(from + W), load<V>(from + 2 * W), load<V>(from + 3 * W)};
+    return {load<V>(from), load<V>(from + Stride), load<V>(from + 2 * Stride), load<V>(from + 3 * Stride)};
+}
+template <int Stride, class S, int W>
+inline void store_quaternions(S* to, const Quaternions<S, W>& q) {
+    store(to, q.w);
+    store(to + Stride, q.x);
+    store(to + 2 * Stride, q.y);
+    store(to + 3 * Stride, q.z);
 }
 
 /// Updates the rotations R nearest to f. @return tr(R^T F)
-template <class S, int W>
+template <class S, int W, int Stride>
 inline Vector<S, W> update_rotations(const Matrices3<S, W>& f, S* state, RotationFallback<S> fallback) {
-    Quaternions<S, W> q = load_quaternions<S, W>(state);
+    Quaternions<S, W> q = load_quaternions<S, W, Stride>(state);
     const Turns<S, W> turn = newton_step(f, rotation_matrices(q));
     Vector<S, W> trace = turn.trace;
     const auto done = is_definite(turn) & (turn.half2 < kSmallTurn<S> * kSmallTurn<S> / 4);
     if (all(done)) [[likely]] {
         q = turned(q, turn.half);
     } else {
-        find_rotations(f, q, fallback);
+        find_rotations(f, turn, q, fallback);
         const Matrices3<S, W> r = rotation_matrices(q);
         trace = Vector<S, W>{};
         for (int k = 0; k < 9; ++k)
             trace += r.m[k] * f.m[k];
     }
-    store(state, q.w);
-    store(state + W, q.x);
-    store(state + 2 * W, q.y);
-    store(state + 3 * W, q.z);
+    store_quaternions<Stride>(state, q);
     return trace;
 }
 
@@ -176,23 +181,23 @@ inline Vectors3<S, W> gather_edge(const S* field, const Vectors3<S, W>& origin, 
 }
 
 /// use(k, edges) for every tetrahedron k of a strip. Every node is read once, and not before it is needed.
-template <class S, int W, class Use>
+template <class S, int W, int Stride, class Use>
 inline void for_edges_of_strip(const S* field, const std::int32_t* nodes, Use&& use) {
     const Vectors3<S, W> origin = gather<S, W>(field, nodes);
     Edges<S, W> edges;
-    edges[1] = gather_edge<S, W>(field, origin, nodes + W);
-    edges[2] = gather_edge<S, W>(field, origin, nodes + 2 * W);
+    edges[1] = gather_edge<S, W>(field, origin, nodes + Stride);
+    edges[2] = gather_edge<S, W>(field, origin, nodes + 2 * Stride);
 #pragma GCC unroll 8
     for (std::size_t k = 0; k < kTetsInStrip; ++k) {
         edges[0] = edges[1];
         edges[1] = edges[2];
-        edges[2] = gather_edge<S, W>(field, origin, nodes + (k + 3) * W);
+        edges[2] = gather_edge<S, W>(field, origin, nodes + (k + 3) * Stride);
         use(k, edges);
     }
 }
 
 /// Sums the forces on the nodes of a strip and adds each sum to its node as soon as it is complete.
-template <class S, int W>
+template <class S, int W, int Stride>
 class StripForces {
   public:
     StripForces(const std::int32_t* nodes, S* field) : nodes_(nodes), field_(field) {}
@@ -215,7 +220,7 @@ class StripForces {
     }
     void complete(std::size_t k, const Vectors3<S, W>& force) {
         sum_ = plus(sum_, force);
-        scatter_add<S, W>(force, nodes_ + (k + 1) * W, field_);
+        scatter_add<S, W>(force, nodes_ + (k + 1) * Stride, field_);
     }
 
     const std::int32_t* nodes_;
@@ -224,11 +229,11 @@ class StripForces {
     Vectors3<S, W> sum_ = {};
 };
 
-template <class S, int W>
+template <class S, int W, int Stride>
 inline Matrices3<S, W> load_matrices(const S* from) {
     Matrices3<S, W> result;
     for (int k = 0; k < 9; ++k)
-        result.m[k] = load<Vector<S, W>>(from + k * W);
+        result.m[k] = load<Vector<S, W>>(from + k * Stride);
     return result;
 }
 
@@ -248,61 +253,96 @@ inline Matrices3<S, W> gradient_of(const Edges<S, W>& u, const Matrices3<S, W>& 
 /// just made, few enough for the level-1 cache.
 constexpr std::size_t kStage = 4;
 
-/// Row k: the force on node k + 1; stores the turned gradients.
-template <class S, int W>
-inline void forces_of(const ElementArrays<S>& elements, std::size_t slot, S scale, const Matrices3<S, W>& f,
-                      Vector<S, W> trace, Vectors3<S, W> (&force)[3]) {
-    using V = Vector<S, W>;
+/// Where a register of numbers of the state stands in the arrays: lanes from `lane` on of a slot, a
+/// tetrahedron of a block. Blocks are as wide as registers of V, of which S may fill a part only.
+template <class S, class V>
+struct Place {
+    static constexpr int kWidth = kLanes<V>;
+    std::size_t slot, lane;
+    [[nodiscard]] std::size_t of(std::size_t numbers) const { return slot * numbers * kWidth + lane; }
+};
+
+/// From the numbers of V and back.
+template <class S, int W, class V>
+inline Vector<S, W> widened(const V* from) {
+    return __builtin_convertvector(load<Vector<V, W>>(from), Vector<S, W>);
+}
+template <class S, int W, class V>
+inline void store_narrowed(V* to, Vector<S, W> v) {
+    store(to, __builtin_convertvector(v, Vector<V, W>));
+}
+
+/// Row k: the force on node k + 1; stores what is linearised.
+template <class S, class V, int W>
+inline void forces_of(const ElementArrays<S, V>& elements, Place<S, V> place, S scale,
+                      const Matrices3<S, W>& f, Vector<S, W> trace, Vectors3<S, W> (&force)[3]) {
+    constexpr int kWidth = kLanes<V>;
+    const StiffnessArrays<V>& to = elements.linearised;
     // Made again from the quaternions: as fast as nine more stores and loads.
-    const Matrices3<S, W> r = rotation_matrices(load_quaternions<S, W>(elements.rotations + slot * 4 * W));
-    const V two_mu = (2 * scale) * load<V>(elements.lame_volume + slot * 2 * W);
-    const V lambda = scale * load<V>(elements.lame_volume + (slot * 2 + 1) * W);
+    const auto q = load_quaternions<S, W, kWidth>(elements.rotations + place.of(4));
+    if constexpr (sizeof(S) != sizeof(V)) {
+        V* const rotations = to.rotations + place.of(4);
+        store_narrowed<S, W>(rotations, q.w);
+        store_narrowed<S, W>(rotations + kWidth, q.x);
+        store_narrowed<S, W>(rotations + 2 * kWidth, q.y);
+        store_narrowed<S, W>(rotations + 3 * kWidth, q.z);
+    }
+    const Matrices3<S, W> r = rotation_matrices(q);
+    const auto two_mu = (2 * scale) * widened<S, W>(to.lame_volume + place.of(2));
+    const auto lambda = scale * widened<S, W>(to.lame_volume + place.of(2) + kWidth);
     // Minus the stress times the volume: the force of a node is this times its gradient.
-    const V turned_part = two_mu - lambda * (trace - S(3));
+    const auto turned_part = two_mu - lambda * (trace - S(3));
     Matrices3<S, W> p;
     for (int k = 0; k < 9; ++k)
         p.m[k] = turned_part * r.m[k] - two_mu * f.m[k];
-    const Matrices3<S, W> b = load_matrices<S, W>(elements.rest_inverse + slot * 9 * W);
-    S* const gradients = elements.gradients + slot * 9 * W;
+    const auto b = load_matrices<S, W, kWidth>(elements.rest_inverse + place.of(9));
+    V* const gradients = to.gradients + place.of(9);
     for (int k = 0; k < 3; ++k) {
         const auto times = [&](const Matrices3<S, W>& m, int row) {
             return m(row, 0) * b(k, 0) + m(row, 1) * b(k, 1) + m(row, 2) * b(k, 2);
         };
         force[k] = {times(p, 0), times(p, 1), times(p, 2)};
         for (int j = 0; j < 3; ++j)
-            store(gradients + (3 * k + j) * W, times(r, j));
+            store_narrowed<S, W>(gradients + (3 * k + j) * kWidth, times(r, j));
     }
 }
 
-template <class S>
-void linearise(const ElementArrays<S>& elements, S scale, const S* u, S* forces,
+template <class S, class V>
+void linearise(const ElementArrays<S, V>& elements, S scale, const S* u, S* forces,
                RotationFallback<S> fallback) {
-    constexpr int W = kLanes<S>;
-    constexpr std::size_t N = kTetsInStrip;
+    constexpr int W = kLanes<S>, kWidth = kLanes<V>;
+    constexpr std::size_t N = kTetsInStrip, kParts = kWidth / W;
     Matrices3<S, W> f[kStage * N];
     Vector<S, W> trace[kStage * N];
-    for (std::size_t first = 0; first < elements.blocks; first += kStage) {
-        const std::size_t count = first + kStage < elements.blocks ? kStage : elements.blocks - first;
+    const auto nodes_of = [&](std::size_t part) {
+        return elements.linearised.nodes + part / kParts * (N + 3) * kWidth + part % kParts * W;
+    };
+    const auto place_of = [](std::size_t part, std::size_t t) {
+        return Place<S, V>{part / kParts * N + t, part % kParts * W};
+    };
+    const std::size_t parts = elements.linearised.blocks * kParts;
+    for (std::size_t first = 0; first < parts; first += kStage) {
+        const std::size_t count = first + kStage < parts ? kStage : parts - first;
         for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t block = first + k;
-            for_edges_of_strip<S, W>(
-                u, elements.nodes + block * (N + 3) * W, [&](std::size_t t, const Edges<S, W>& edges) {
+            for_edges_of_strip<S, W, kWidth>(
+                u, nodes_of(first + k), [&](std::size_t t, const Edges<S, W>& edges) {
                     Matrices3<S, W>& to = f[k * N + t];
-                    to = gradient_of<S, W>(
-                        edges, load_matrices<S, W>(elements.rest_inverse + (block * N + t) * 9 * W));
+                    to = gradient_of<S, W>(edges, load_matrices<S, W, kWidth>(elements.rest_inverse +
+                                                                              place_of(first + k, t).of(9)));
                     for (int i = 0; i < 3; ++i)
                         to(i, i) += S(1);
                 });
         }
         for (std::size_t k = 0; k < count * N; ++k)
-            trace[k] = update_rotations(f[k], elements.rotations + (first * N + k) * 4 * W, fallback);
+            trace[k] = update_rotations<S, W, kWidth>(
+                f[k], elements.rotations + place_of(first + k / N, k % N).of(4), fallback);
         for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t block = first + k;
-            StripForces<S, W> sums(elements.nodes + block * (N + 3) * W, forces);
+            StripForces<S, W, kWidth> sums(nodes_of(first + k), forces);
 #pragma GCC unroll 8
             for (std::size_t t = 0; t < N; ++t) {
                 Vectors3<S, W> force[3];
-                forces_of<S, W>(elements, block * N + t, scale, f[k * N + t], trace[k * N + t], force);
+                forces_of<S, V, W>(elements, place_of(first + k, t), scale, f[k * N + t], trace[k * N + t],
+                                   force);
                 sums.add(t, force);
             }
             sums.finish();
@@ -311,16 +351,16 @@ void linearise(const ElementArrays<S>& elements, S scale, const S* u, S* forces,
 }
 
 template <class S>
-void apply_stiffness(const ElementArrays<S>& elements, S scale, const S* u, S* out) {
+void apply_stiffness(const StiffnessArrays<S>& elements, S scale, const S* u, S* out) {
     constexpr int W = kLanes<S>;
     using V = Vector<S, W>;
     constexpr std::size_t N = kTetsInStrip;
     for (std::size_t block = 0; block < elements.blocks; ++block) {
         const std::int32_t* const nodes = elements.nodes + block * (N + 3) * W;
-        StripForces<S, W> sums(nodes, out);
-        for_edges_of_strip<S, W>(u, nodes, [&](std::size_t t, const Edges<S, W>& edges) {
+        StripForces<S, W, W> sums(nodes, out);
+        for_edges_of_strip<S, W, W>(u, nodes, [&](std::size_t t, const Edges<S, W>& edges) {
             const std::size_t slot = block * N + t;
-            const Matrices3<S, W> g = load_matrices<S, W>(elements.gradients + slot * 9 * W);
+            const Matrices3<S, W> g = load_matrices<S, W, W>(elements.gradients + slot * 9 * W);
             const Matrices3<S, W> h = gradient_of<S, W>(edges, g);
             const V mu = scale * load<V>(elements.lame_volume + slot * 2 * W);
             const V pressure =
@@ -341,9 +381,9 @@ void apply_stiffness(const ElementArrays<S>& elements, S scale, const S* u, S* o
     }
 }
 
-template <class S>
-constexpr ElementKernels<S> element_kernels() {
-    return {kLanes<S>, linearise<S>, apply_stiffness<S>};
+template <class S, class V>
+constexpr ElementKernels<S, V> element_kernels() {
+    return {kLanes<V>, linearise<S, V>, apply_stiffness<V>};
 }
 
 }  // namespace

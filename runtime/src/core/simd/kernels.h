@@ -19,8 +19,9 @@ enum class SimdTarget : std::uint8_t {
 /// All functions of the core that are compiled once per instruction set.
 struct Kernels {
     FactorKernels factor;
-    ElementKernels<float> element_float;
-    ElementKernels<double> element_double;
+    ElementKernels<float, float> element_float;
+    ElementKernels<double, float> element_mixed;
+    ElementKernels<double, double> element_double;
     FieldKernels<float> field_float;
     FieldKernels<double> field_double;
     SparseKernels<float> sparse_float;
@@ -28,10 +29,12 @@ struct Kernels {
     RotationKernels<float> rotation_float;
     RotationKernels<double> rotation_double;
 
-    template <class S>
-    [[nodiscard]] const ElementKernels<S>& element() const noexcept {
+    template <class S, class V>
+    [[nodiscard]] const ElementKernels<S, V>& element() const noexcept {
         if constexpr (sizeof(S) == sizeof(float))
             return element_float;
+        else if constexpr (sizeof(V) == sizeof(float))
+            return element_mixed;
         else
             return element_double;
     }

@@ -11,10 +11,15 @@
 namespace knead::core {
 
 extern const Kernels kPortableKernels;
-const Kernels kPortableKernels = {portable::factor_kernels(),          portable::element_kernels<float>(),
-                                  portable::element_kernels<double>(), portable::field_kernels<float>(),
-                                  portable::field_kernels<double>(),   portable::sparse_kernels<float>(),
-                                  portable::sparse_kernels<double>(),  portable::rotation_kernels<float>(),
+const Kernels kPortableKernels = {portable::factor_kernels(),
+                                  portable::element_kernels<float, float>(),
+                                  portable::element_kernels<double, float>(),
+                                  portable::element_kernels<double, double>(),
+                                  portable::field_kernels<float>(),
+                                  portable::field_kernels<double>(),
+                                  portable::sparse_kernels<float>(),
+                                  portable::sparse_kernels<double>(),
+                                  portable::rotation_kernels<float>(),
                                   portable::rotation_kernels<double>()};
 
 }  // namespace knead::core

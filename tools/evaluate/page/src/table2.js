@@ -3,6 +3,7 @@
 import { absent, caption, choice, h, head, numeric, scrolling } from "./dom.js";
 import { count, duration, newtons, percent, plural, signedPercent, significant } from "./format.js";
 import { levelsOf, mainLoad, median, referenceForce, usable, valuesOf } from "./levels.js";
+import { speedTable } from "./speed.js";
 
 const rowKey = (method, tets) => `${method}|${tets}`;
 const isTabled = (r) => r.method === "homogenised" || r.method === "paper";
@@ -15,18 +16,23 @@ function sameScene(name, other) {
 }
 
 function paperCell(data, scene, row) {
-    const cell = (data.paper?.table2 ?? []).find(
-        (c) => c.method === row.method && c.tets === row.tets && sameScene(scene.name, c.scene),
-    );
+    const cell =
+        scene.name === "steak"
+            ? (data.paper?.steak?.rows ?? []).find((c) => c.method === row.method)
+            : (data.paper?.table2 ?? []).find(
+                  (c) => c.method === row.method && c.tets === row.tets && sameScene(scene.name, c.scene),
+              );
     return cell && Number.isFinite(cell.value_percent) ? cell.value_percent / 100 : undefined;
 }
 
 /** The rows: every (method, tets) that we or the paper have, homogenised first, then by k, finest mesh first. */
-function rowsOf(data, runs) {
+function rowsOf(data, runs, scenes) {
     const rows = new Map();
     const add = (method, tets) => rows.set(rowKey(method, tets), { method, tets });
     for (const run of runs) add(tabledName(run), run.tets);
-    for (const cell of data.paper?.table2 ?? []) if (cell.method !== "reference") add(cell.method, cell.tets);
+    const isShown = (cell) => scenes.some((scene) => sameScene(scene.name, cell.scene));
+    for (const cell of (data.paper?.table2 ?? []).filter(isShown))
+        if (cell.method !== "reference") add(cell.method, cell.tets);
     const k = (row) => (row.method === "homogenised" ? 0 : Number(row.method.slice(1)));
     return [...rows.values()].sort((a, b) => k(a) - k(b) || b.tets - a.tets);
 }
@@ -67,6 +73,11 @@ function describe(scene, level) {
     );
 }
 
+/** The paper gives no sign for its steak. */
+function published(scene, share) {
+    return scene.name === "steak" ? `|${(100 * share).toFixed(0)}|` : bare(share);
+}
+
 function cellOf(data, scene, row, runs, tally) {
     const level = levelsOf(
         runs.filter((r) => tabledName(r) === row.method && r.tets === row.tets),
@@ -87,7 +98,7 @@ function cellOf(data, scene, row, runs, tally) {
         h("span", { class: "ours" }, ours.cell),
         paper === undefined
             ? null
-            : h("span", { class: "paper" }, "paper ", verdict(Math.abs(paper) <= data.jnd), " ", bare(paper)),
+            : h("span", { class: "paper" }, "paper ", verdict(Math.abs(paper) <= data.jnd), " ", published(scene, paper)),
     );
 }
 
@@ -99,8 +110,8 @@ function referenceCell(data, scene, load) {
     return h("td", { class: "cell" }, ours, theirs);
 }
 
-function referenceRow(data, load) {
-    const cells = data.scenes.map((scene) => referenceCell(data, scene, load));
+function referenceRow(data, scenes, load) {
+    const cells = scenes.map((scene) => referenceCell(data, scene, load));
     return h("tr", {}, h("th", { scope: "row" }, "reference"), cells);
 }
 
@@ -141,14 +152,15 @@ function tableTitle(data, load, bins) {
 function table(data, load, bins) {
     const ofBins = (r) => r.method === "homogenised" || bins === undefined || r.bins === bins;
     const runsOf = (scene) => scene.results.filter((r) => isTabled(r) && r.load === load && ofBins(r));
-    const rows = rowsOf(data, data.scenes.flatMap(runsOf));
+    const scenes = data.scenes.filter((scene) => runsOf(scene).length > 0);
+    const rows = rowsOf(data, scenes.flatMap(runsOf), scenes);
     const tally = [];
     const body = rows.map((row, i) => {
-        const cells = data.scenes.map((scene) => cellOf(data, scene, row, runsOf(scene), tally));
+        const cells = scenes.map((scene) => cellOf(data, scene, row, runsOf(scene), tally));
         return levelRow(row, i === 0 || rows[i - 1].method !== row.method, cells);
     });
-    const columns = head("Level, tets", ...data.scenes.map((s) => s.name));
-    const all = h("tbody", {}, referenceRow(data, load), body);
+    const columns = head("Level, tets", ...scenes.map((s) => s.name));
+    const all = h("tbody", {}, referenceRow(data, scenes, load), body);
     return [
         scrolling(h("table", { class: "table2" }, tableTitle(data, load, bins), columns, all), "Table 2"),
         h("ul", { class: "totals" }, totals(tally, "ours"), totals(tally, "paper")),
@@ -205,9 +217,10 @@ function timeRows(data, runs, meshes) {
 }
 
 export function timeSection(data) {
+    const load = mainLoad(data.scenes); // scenes of another load are other objects; times do not depend on it
     const runs = data.scenes
         .flatMap((s) => s.results)
-        .filter((r) => isTabled(r) && usable(r) && r.step_us?.p50 > 0);
+        .filter((r) => r.load === load && isTabled(r) && usable(r) && r.step_us?.p50 > 0);
     const meshes = [...new Set(runs.map((r) => r.tets))].sort((a, b) => b - a);
     if (meshes.length === 0) return [absent("No step times in this evaluation.")];
     const { rows, withPaper } = timeRows(data, runs, meshes);
@@ -219,5 +232,6 @@ export function timeSection(data) {
         "Ratios within one run are the claim; absolute times depend on the machine.",
     );
     const columns = head("Tetrahedra", ...titles.map((number) => ({ number })));
-    return [scrolling(h("table", {}, title, columns, h("tbody", {}, rows)), "Table 1")];
+    const table1 = scrolling(h("table", {}, title, columns, h("tbody", {}, rows)), "Table 1");
+    return [table1, speedTable(data)];
 }
