@@ -45,9 +45,9 @@ struct Attempt {
     const NodeReader& solved;                     ///< where the nodes are now
     const std::vector<Vec>& tool_displacement_m;  ///< [tools] beyond the prediction; zero unless coupled
     const std::vector<Vec>& row_n;                ///< [constraints] of the held nodes, as in force_on_tool()
-    Real travel_m = 0;          ///< no node has moved farther since the step before
-    Real pull_tolerance_n = 0;  ///< a pull of a node up to this is the solver's error
-    Real cone_tolerance = 0;    ///< of a slipping node's friction, relative to what Coulomb's law says
+    Real travel_m = 0;                            ///< no node has moved farther since the step before
+    Real pull_tolerance_n = 0;                    ///< a pull of a node up to this is the solver's error
+    Real cone_tolerance = 0;  ///< of a slipping node's friction, relative to what Coulomb's law says
     /// The solve is not at its end: only changes of touch are wanted, of a node one each way.
     bool early = false;
 };

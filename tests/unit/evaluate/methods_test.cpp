@@ -249,8 +249,8 @@ std::vector<Load> pads_for(const TetMesh& mesh) {
     return pads;
 }
 
-/// The oracle ties the surface by elimination and solves each pad alone; the probes solve for the forces of the
-/// bond from the responses of a face.
+/// The oracle ties the surface by elimination and solves each pad alone; the probes solve for the forces of
+/// the bond from the responses of a face.
 TEST(Calibration, Answer_to_a_pad_is_the_force_that_the_same_load_is_felt_with) {
     const MaterialObject object = scenario_object(3, 1);
     const std::vector<bool> held = held_bottom(object.mesh);
@@ -275,7 +275,8 @@ TEST(Calibration, Pads_of_the_fit_are_none_of_the_loads) {
             const Point load_size = load.within.size_m();
             bool same = pad.region.facing == load.facing;
             for (std::size_t axis = 0; axis < 3; ++axis)
-                if (load.facing[axis] == 0 && std::abs(probe_size[axis] - load_size[axis]) > 1e-9) same = false;
+                if (load.facing[axis] == 0 && std::abs(probe_size[axis] - load_size[axis]) > 1e-9)
+                    same = false;
             EXPECT_FALSE(same) << name;
         }
 }
