@@ -7,7 +7,7 @@
 
 #include "h5.h"
 #include "knead/formats/version.h"
-#include "names.h"
+#include "required_features.h"
 #include "schema.h"
 
 namespace knead {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "names.h"
+#include "knead/formats/tool_names.h"
 #include "read_kind.h"
+#include "required_features.h"
 
 namespace knead {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "asset/json.h"
 #include "knead/formats/numerics.h"
+#include "knead/formats/tool_names.h"
 
 namespace knead::tools {
 namespace {
@@ -14,16 +15,6 @@ namespace {
 std::string number(double value) {
     char buffer[64];
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
-const char* name_of(ToolShape shape) {
-    static constexpr std::array<const char*, 3> kNames{"plate", "sphere", "capsule"};
-    return kNames[static_cast<std::size_t>(shape)];
-}
-
-const char* name_of(ToolContact contact) {
-    static constexpr std::array<const char*, 4> kNames{"bonded", "sticking", "frictionless", "coulomb"};
-    return kNames[static_cast<std::size_t>(contact)];
 }
 
 /// "capsule of radius 0.005 m and half length 0.02 m, coulomb with friction 0.3"

@@ -11,6 +11,7 @@
 
 #include "common/error.h"
 #include "common/length.h"
+#include "knead/formats/tool_names.h"
 #include "scene/toml_table.h"
 
 namespace knead::tools {
@@ -252,7 +253,7 @@ Selection read_selection(TomlTable& table, const std::string& scene_key) {
 }
 
 void read_shape(TomlTable& table, SceneTool& tool) {
-    const auto shape = table.choice("shape", {"plate", "sphere", "capsule"});
+    const auto shape = table.choice("shape", {kToolShapes.begin(), kToolShapes.end()});
     if (!shape) table.fail_missing("shape");
     const auto required_length = [&](const char* key) {
         const double length = positive(table, key, table.length_m(key));
@@ -273,7 +274,7 @@ void read_shape(TomlTable& table, SceneTool& tool) {
 }
 
 void read_contact(TomlTable& table, SceneTool& tool) {
-    const std::vector<std::string> contacts{"bonded", "sticking", "frictionless", "coulomb"};
+    const std::vector<std::string> contacts(kToolContacts.begin(), kToolContacts.end());
     const auto contact = table.choice("contact", contacts);
     if (!contact) table.fail_missing("contact");
     const auto place = std::find(contacts.begin(), contacts.end(), *contact);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "knead/formats/tool_names.h"
 #include "stability/cells.h"
 #include "stability/meshes.h"
 
@@ -18,20 +19,6 @@ Specimen cube_under(const SceneTool& tool, double nu, std::uint32_t cells = kCel
     return make_specimen(homogeneous(box_mesh({cells, cells, cells}, {kSide_m, kSide_m, kSide_m}),
                                      {kYoungsModulus_pa, nu, kDensity_kg_per_m3}),
                          setting);
-}
-
-const char* name_of(ToolContact contact) {
-    switch (contact) {
-        case ToolContact::bonded:
-            return "bonded";
-        case ToolContact::sticking:
-            return "sticking";
-        case ToolContact::frictionless:
-            return "frictionless";
-        case ToolContact::coulomb:
-            return "coulomb";
-    }
-    return "";
 }
 
 /// Down (or up, if negative) by that share of the height and back.

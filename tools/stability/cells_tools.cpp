@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knead/formats/tool_names.h"
 #include "stability/cells.h"
 #include "stability/meshes.h"
 
@@ -12,32 +13,6 @@ namespace {
 
 constexpr double kPressed = 0.15;
 constexpr double kSlide_s = 0.5;
-
-const char* name_of(ToolShape shape) {
-    switch (shape) {
-        case ToolShape::plate:
-            return "plate";
-        case ToolShape::sphere:
-            return "sphere";
-        case ToolShape::capsule:
-            return "capsule";
-    }
-    return "";
-}
-
-const char* name_of(ToolContact contact) {
-    switch (contact) {
-        case ToolContact::bonded:
-            return "bonded";
-        case ToolContact::sticking:
-            return "sticking";
-        case ToolContact::frictionless:
-            return "frictionless";
-        case ToolContact::coulomb:
-            return "coulomb";
-    }
-    return "";
-}
 
 MaterialObject cube(const Matter& matter = {}) {
     return homogeneous(box_mesh({kCells, kCells, kCells}, {kSide_m, kSide_m, kSide_m}), matter);

@@ -1,36 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "touch/asset_json.h"
 
+#include "knead/formats/tool_names.h"
+
 namespace knead::tools {
-namespace {
-
-const char* word(ToolShape shape) {
-    switch (shape) {
-        case ToolShape::plate:
-            return "plate";
-        case ToolShape::sphere:
-            return "sphere";
-        case ToolShape::capsule:
-            return "capsule";
-    }
-    return "?";
-}
-
-const char* word(ToolContact contact) {
-    switch (contact) {
-        case ToolContact::bonded:
-            return "bonded";
-        case ToolContact::sticking:
-            return "sticking";
-        case ToolContact::frictionless:
-            return "frictionless";
-        case ToolContact::coulomb:
-            return "coulomb";
-    }
-    return "?";
-}
-
-}  // namespace
+namespace {}  // namespace
 
 nlohmann::ordered_json asset_json(const Asset& asset, const std::string& content_hash, std::size_t tool) {
     const ToolSet& set = asset.tools[tool];
@@ -42,8 +16,8 @@ nlohmann::ordered_json asset_json(const Asset& asset, const std::string& content
             {"tool",
              {{"index", tool},
               {"name", set.name},
-              {"shape", word(set.shape)},
-              {"contact", word(set.contact)},
+              {"shape", name_of(set.shape)},
+              {"contact", name_of(set.contact)},
               {"nodes", set.nodes.size()}}}};
 }
 

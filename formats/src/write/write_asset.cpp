@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "../names.h"
+#include "../required_features.h"
 #include "encode.h"
+#include "knead/formats/tool_names.h"
 
 namespace knead {
 namespace {
@@ -46,8 +47,8 @@ void encode_palette(Payload& payload, const Asset& asset) {
 void encode_tool(Payload& payload, const ToolSet& tool, const std::string& path) {
     Node& node = payload.add_group(path);
     node.attributes["name"] = text_value(tool.name);
-    node.attributes["shape"] = text_value(kToolShapes[static_cast<std::size_t>(tool.shape)]);
-    node.attributes["contact"] = text_value(kToolContacts[static_cast<std::size_t>(tool.contact)]);
+    node.attributes["shape"] = text_value(name_of(tool.shape));
+    node.attributes["contact"] = text_value(name_of(tool.contact));
     const auto add_number = [&](const char* dataset, double value, const char* units) {
         payload.add_dataset(path + "/" + dataset, copy_1d(std::array<double, 1>{value}), units);
     };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "knead/formats/tool_names.h"
 #include "unit/runtime/dense_body.h"
 
 namespace knead::test {
@@ -146,10 +147,7 @@ TEST_P(Touching, is_the_same_to_the_bit_whether_far_nodes_are_looked_at_or_not) 
 }
 
 std::string name_of(const testing::TestParamInfo<std::tuple<ToolShape, ToolContact>>& tested) {
-    static constexpr const char* kShapes[] = {"plate", "sphere", "capsule"};
-    static constexpr const char* kKinds[] = {"bonded", "sticking", "frictionless", "coulomb"};
-    return std::string(kShapes[static_cast<int>(std::get<0>(tested.param))]) + "_" +
-           kKinds[static_cast<int>(std::get<1>(tested.param))];
+    return std::string(name_of(std::get<0>(tested.param))) + "_" + name_of(std::get<1>(tested.param));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "knead/formats/tool_names.h"
 #include "unit/runtime/press.h"
 
 namespace knead::test {
@@ -103,10 +104,7 @@ TEST_P(Touch, and_leave_never_pulls_never_penetrates_and_jumps_only_by_stiffness
 }
 
 std::string name_of(const testing::TestParamInfo<std::tuple<ToolShape, ToolContact>>& tested) {
-    static constexpr const char* kShapes[] = {"plate", "sphere", "capsule"};
-    static constexpr const char* kKinds[] = {"bonded", "sticking", "frictionless", "coulomb"};
-    return std::string(kShapes[static_cast<int>(std::get<0>(tested.param))]) + "_" +
-           kKinds[static_cast<int>(std::get<1>(tested.param))];
+    return std::string(name_of(std::get<0>(tested.param))) + "_" + name_of(std::get<1>(tested.param));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -5,10 +5,6 @@
 
 namespace knead {
 
-/// How files spell the enumerators of ToolShape and ToolContact, in their order.
-inline constexpr std::array<const char*, 3> kToolShapes{"plate", "sphere", "capsule"};
-inline constexpr std::array<const char*, 4> kToolContacts{"bonded", "sticking", "frictionless", "coulomb"};
-
 /// Required features: what a file names that readers before it would take for something else or not at all.
 inline constexpr const char* kCapsuleFeature = "capsule_tool";     ///< since 1.1
 inline constexpr const char* kCoulombFeature = "coulomb_contact";  ///< since 1.1
