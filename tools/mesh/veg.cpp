@@ -69,6 +69,8 @@ void collect_lines(std::string_view content, const std::string& name, const Incl
             continue;
         }
         if (line.words.size() != 2) fail_input(line.place + ": *INCLUDE needs one file name");
+        if (line.words[1].find('\0') != std::string::npos)
+            fail_input(line.place + ": *INCLUDE names a file with a zero byte in its name");
         if (depth == kMaxIncludeDepth) fail_input(line.place + ": files include each other too deeply");
         collect_lines(include(line.words[1]), line.words[1], include, depth + 1, lines);
     }

@@ -49,6 +49,9 @@ TEST(Veg, Includes_stand_where_they_are_named) {
     EXPECT_EQ(mesh.regions.region_of_tetrahedron, (std::vector<std::uint32_t>{0, 1}));
     KNEAD_EXPECT_REFUSAL(read_veg("*INCLUDE a", [](const std::string&) { return std::string("*INCLUDE a"); }),
                          bad_input, "deeply");
+    const std::string zero_byte("*INCLUDE a\0b", 12);
+    KNEAD_EXPECT_REFUSAL(read_veg(zero_byte, [](const std::string&) { return std::string(); }), bad_input,
+                         "zero byte");
 }
 
 TEST(Veg, Vertex_before_the_first_is_out_of_range_and_not_an_overflow) {
