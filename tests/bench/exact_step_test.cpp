@@ -9,6 +9,7 @@
 #include "baseline/baseline.h"
 #include "bench/motion.h"
 #include "bench/scene.h"
+#include "knead/formats/asset_object.h"
 #include "reference/implicit_euler.h"
 #include "reference/plate_press.h"
 
@@ -20,19 +21,6 @@ using baseline::Baseline;
 constexpr std::uint32_t kCells = 3;
 constexpr double kDtS = 1e-3;
 
-/// The same object for the reference, which knows meshes and materials, in the asset's order of nodes.
-MaterialObject as_object(const Asset& asset) {
-    MaterialObject object;
-    object.mesh.nodes_m = asset.nodes_m;
-    object.mesh.tetrahedra = asset.tetrahedra;
-    for (const std::uint32_t index : asset.palette_index) {
-        object.material.youngs_modulus_pa.push_back(asset.palette[index].youngs_modulus_pa);
-        object.material.poissons_ratio.push_back(asset.palette[index].poissons_ratio);
-        object.material.density_kg_per_m3.push_back(asset.palette[index].density_kg_per_m3);
-    }
-    return object;
-}
-
 Point displacement(const Body& body, std::uint32_t node, const Pose& pose) {
     const Columns moved = body.predict(body.at_rest(), pose, kDtS) - body.rest_m;
     return {moved(0, node), moved(1, node), moved(2, node)};
@@ -42,7 +30,7 @@ Point displacement(const Body& body, std::uint32_t node, const Pose& pose) {
 /// force.
 double difference(const Asset& asset, double way_m, int steps) {
     const Body body = make_body(asset);
-    const MaterialObject object = as_object(asset);
+    const MaterialObject object = object_of(asset);
     tools::BodyForces forces;
     forces.gravity_m_per_s2 = asset.gravity_m_per_s2;
     forces.damping_per_s = asset.damping_per_s;
@@ -100,7 +88,7 @@ TEST(ExactStep, Slow_motion_gives_the_forces_of_the_reference_with_and_without_g
 TEST(ExactStep, Deep_press_held_until_still_gives_the_static_force_of_the_reference) {
     const Asset asset = cube(false);
     const Body body = make_body(asset);
-    const MaterialObject object = as_object(asset);
+    const MaterialObject object = object_of(asset);
     const tools::PlatePress press = tools::plate_press(object.mesh, 0.2);
     const Point expected = tools::force_on_plate_n(
         press, tools::StaticProblem(object.mesh, object.material).solve(press.motion));

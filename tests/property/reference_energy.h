@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "knead/formats/asset.h"
+#include "knead/formats/asset_object.h"
 #include "knead/formats/material.h"
 #include "reference/elastic_body.h"
 
@@ -11,16 +12,8 @@ namespace knead::test {
 
 /// The elements of an asset as the reference solver has them, which shares no code with the runtime.
 inline tools::ElasticBody reference_body(const Asset& asset) {
-    TetMesh mesh;
-    mesh.nodes_m = asset.nodes_m;
-    mesh.tetrahedra = asset.tetrahedra;
-    Material material;
-    for (const std::uint32_t index : asset.palette_index) {
-        material.youngs_modulus_pa.push_back(asset.palette[index].youngs_modulus_pa);
-        material.poissons_ratio.push_back(asset.palette[index].poissons_ratio);
-        material.density_kg_per_m3.push_back(asset.palette[index].density_kg_per_m3);
-    }
-    return {mesh, material};
+    const MaterialObject object = object_of(asset);
+    return {object.mesh, object.material};
 }
 
 /// @param positions_m [3 nodes]

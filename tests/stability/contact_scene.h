@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "knead/formats/asset_object.h"
 #include "knead/runtime/simulation.h"
 #include "reference/contact_problem.h"
 #include "stability/press_asset.h"
@@ -30,13 +31,9 @@ struct ContactScene {
 /// The reference's view of an asset.
 inline ContactScene scene_of(Asset asset) {
     ContactScene scene;
-    scene.mesh.nodes_m = asset.nodes_m;
-    scene.mesh.tetrahedra = asset.tetrahedra;
-    for (const std::uint32_t entry : asset.palette_index) {
-        scene.material.youngs_modulus_pa.push_back(asset.palette[entry].youngs_modulus_pa);
-        scene.material.poissons_ratio.push_back(asset.palette[entry].poissons_ratio);
-        scene.material.density_kg_per_m3.push_back(asset.palette[entry].density_kg_per_m3);
-    }
+    MaterialObject object = object_of(asset);
+    scene.mesh = std::move(object.mesh);
+    scene.material = std::move(object.material);
     for (auto n = asset.free_node_count; n < asset.nodes_m.size(); ++n)
         scene.held.nodes.push_back(n);
     scene.held.displacement_m.assign(scene.held.nodes.size(), Point{});

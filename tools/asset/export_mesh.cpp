@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "asset/export_mesh.h"
+#include "knead/formats/asset_object.h"
 
 #include <charconv>
 #include <set>
@@ -141,13 +142,7 @@ ExportMesh export_mesh(const ClusteredObject& object) {
 
 ExportMesh export_mesh(const Asset& asset) {
     ExportMesh out{asset.nodes_m, asset.tetrahedra, {}, {}, {}};
-    Material material;
-    for (const std::uint32_t i : asset.palette_index) {
-        material.youngs_modulus_pa.push_back(asset.palette[i].youngs_modulus_pa);
-        material.poissons_ratio.push_back(asset.palette[i].poissons_ratio);
-        material.density_kg_per_m3.push_back(asset.palette[i].density_kg_per_m3);
-    }
-    add_material(out, material);
+    add_material(out, object_of(asset).material);
     out.fields.push_back(index_field("material_index", asset.palette_index));
     return out;
 }

@@ -14,25 +14,6 @@
 namespace knead::tools {
 namespace {
 
-double root_sum(const std::vector<Point>& values) {
-    double sum = 0;
-    for (const Point& value : values)
-        for (const double x : value)
-            sum += x * x;
-    return std::sqrt(sum);
-}
-
-/// Over the surface nodes of the level: |u - u_reference| / |u_reference|, root mean squares.
-double displacement_error(const PreparedMesh& mesh, const StaticAnswer& answer,
-                          const StaticAnswer& reference) {
-    const std::vector<Point> wanted = values_at(mesh.places, reference.displacement_m);
-    std::vector<Point> difference = wanted;
-    for (std::size_t k = 0; k < wanted.size(); ++k)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            difference[k][axis] -= answer.displacement_m[mesh.outer[k]][axis];
-    return root_sum(difference) / root_sum(wanted);
-}
-
 /// Calibration saw the loads that move the whole upper surface rigidly, whoever does it.
 bool is_fitted(const CellTask& task, const MeshLoad& load) {
     if (task.method.kind != MethodKind::calibrated) return false;

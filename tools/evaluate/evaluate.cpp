@@ -19,14 +19,6 @@
 namespace knead::tools {
 namespace {
 
-std::string hash_of(const PreparedMesh& mesh, const Material& material) {
-    std::string bytes = mesh.hash;
-    append_bytes(bytes, material.youngs_modulus_pa);
-    append_bytes(bytes, material.poissons_ratio);
-    append_bytes(bytes, material.density_kg_per_m3);
-    return sha256_of(bytes);
-}
-
 /// A scene, its objects (one for each seed that gives another one) and its tasks.
 struct SceneRun {
     PreparedScene prepared;

@@ -18,8 +18,6 @@
 #include "evaluate/paper/files.h"
 #include "evaluate/paper/run.h"
 #include "evaluate/tables.h"
-#include "knead/formats/hash.h"
-#include "knead/formats/version.h"
 #include "knead/formats/write/write.h"
 
 namespace knead::tools {
@@ -28,12 +26,6 @@ namespace {
 std::string minutes(double seconds) {
     const auto whole = static_cast<long>(seconds + 0.5);
     return fmt::format("{}:{:02} left", whole / 60, whole % 60);
-}
-
-/// Results belong to the program that made them: another build computes anew.
-std::string program_hash() {
-    const Result<std::string> hash = sha256_of_file("/proc/self/exe");
-    return hash.ok() ? hash.value() : std::string(kLibraryVersion);
 }
 
 constexpr const char* kDisagreement = "the runtime and the reference solver differ by more than 0.1 %: ";
@@ -54,7 +46,7 @@ std::string command_line(const std::vector<std::string>& arguments) {
 
 std::vector<SceneResult> run_evaluation(ToolContext& context, const EvaluateOptions& options) {
     EvaluationRequest request = request_of(options, context.threads);
-    const ResultCache cache(cache_folder(options), program_hash());
+    const ResultCache cache = open_cache(options.cache);
     Progress progress(!context.quiet);
     const Stopwatch watch;
     EvaluationListener listener;

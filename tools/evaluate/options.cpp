@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "common/run_tool.h"
 #include "evaluate/loads.h"
-#include "material/csv.h"
 #include "scene/toml_table.h"
 
 namespace knead::tools {
@@ -58,16 +56,7 @@ void declare_options(CLI::App& app, EvaluateOptions& options) {
         ->delimiter(',')
         ->capture_default_str()
         ->type_name("NAME,...");
-    app.add_option("--bins", options.bins, "elasticity bins of the paper's method")
-        ->delimiter(',')
-        ->capture_default_str()
-        ->check(CLI::Range(1U, 1000000U))
-        ->type_name("N,...");
-    app.add_option("--clusters", options.clusters, "clusters in each bin of the paper's method")
-        ->delimiter(',')
-        ->capture_default_str()
-        ->check(CLI::Range(1U, 1000000U))
-        ->type_name("K,...");
+    declare_paper_method(app, options.bins, options.clusters);
     app.add_option(
            "--levels", options.levels,
            "coarse meshes: names of the scene's levels, \"fine\", or numbers of tetrahedra [the coarse "
@@ -107,10 +96,7 @@ void declare_options(CLI::App& app, EvaluateOptions& options) {
     app.add_option("--fail-above", options.fail_above,
                    "exit with 1 when a force error is above this, or something did not converge")
         ->type_name("SHARE");
-    auto* cache =
-        app.add_option("--cache", options.cache,
-                       "folder in which results are kept [the user's cache folder, knead/evaluate]");
-    cache->type_name("FOLDER");
+    declare_options(app, options.cache);
     auto* paper = app.add_option("--paper", options.paper,
                                  "the paper's evaluation of its scenes (scenario1 to scenario9, steak): "
                                  "tables beside the paper's, into "
@@ -120,7 +106,6 @@ void declare_options(CLI::App& app, EvaluateOptions& options) {
          {"--methods", "--bins", "--clusters", "--levels", "--loads", "--reference", "--curves", "--states",
           "--beside-paper", "--html", "--json", "--csv", "--fail-above"})
         paper->excludes(other);
-    app.add_flag("--no-cache", options.no_cache, "keep nothing, use nothing kept")->excludes(cache);
     stability::declare_options(app, options.stability);
 }
 
@@ -149,23 +134,10 @@ EvaluationRequest request_of(const EvaluateOptions& options, unsigned threads) {
 
 std::optional<double> fail_above_of(const EvaluateOptions& options) {
     if (options.fail_above.empty()) return std::nullopt;
-    std::string text = options.fail_above;
-    const bool percent = text.back() == '%';
-    if (percent) text.pop_back();
-    const std::optional<double> number = parse_number(text);
-    if (!number || !std::isfinite(*number) || *number < 0)
+    const std::optional<double> share = share_of(options.fail_above);
+    if (!share || !std::isfinite(*share) || *share < 0)
         fail_usage(fmt::format("--fail-above: \"{}\" is not a share such as 10% or 0.1", options.fail_above));
-    return percent ? *number / 100 : *number;
-}
-
-std::filesystem::path cache_folder(const EvaluateOptions& options) {
-    if (options.no_cache) return {};
-    if (!options.cache.empty()) return options.cache;
-    if (const char* caches = std::getenv("XDG_CACHE_HOME"); caches != nullptr && *caches != '\0')
-        return std::filesystem::path(caches) / "knead" / "evaluate";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return std::filesystem::path(home) / ".cache" / "knead" / "evaluate";
-    return {};
+    return share;
 }
 
 }  // namespace knead::tools

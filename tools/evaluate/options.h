@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluate/evaluation.h"
+#include "evaluate/shared_options.h"
 #include "stability/options.h"
 
 namespace knead::tools {
@@ -34,8 +34,7 @@ struct EvaluateOptions {
     std::filesystem::path html;
     std::filesystem::path paper;  ///< folder for the paper's evaluation
     std::string fail_above;
-    std::filesystem::path cache;
-    bool no_cache = false;
+    CacheOptions cache;
     stability::StabilityOptions stability;
 };
 
@@ -46,8 +45,5 @@ void declare_options(CLI::App& app, EvaluateOptions& options);
 
 /// "10%" or "0.1" as a share; nothing when it was not said. @throws ToolError(bad_usage)
 [[nodiscard]] std::optional<double> fail_above_of(const EvaluateOptions& options);
-
-/// Where results are kept; empty: nowhere. By default "knead/evaluate" in the user's folder for caches.
-[[nodiscard]] std::filesystem::path cache_folder(const EvaluateOptions& options);
 
 }  // namespace knead::tools

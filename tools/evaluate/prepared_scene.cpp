@@ -27,6 +27,14 @@ std::string hash_of(const TetMesh& mesh) {
     return sha256_of(bytes);
 }
 
+double root_sum(const std::vector<Point>& values) {
+    double sum = 0;
+    for (const Point& value : values)
+        for (const double x : value)
+            sum += x * x;
+    return std::sqrt(sum);
+}
+
 std::vector<bool> held_nodes(const Scene& scene, const TetMesh& mesh) {
     std::vector<bool> held(mesh.nodes_m.size(), false);
     for (const Selection& selection : scene.held) {
@@ -208,6 +216,24 @@ PreparedScene prepare(const std::filesystem::path& file, const EvaluationRequest
 
 Asset bake_level(const PreparedScene& prepared, const MaterialObject& object) {
     return bake(prepared.scene, prepared.scene.levels.front(), object, prepared.skin);
+}
+
+std::string hash_of(const PreparedMesh& mesh, const Material& material) {
+    std::string bytes = mesh.hash;
+    append_bytes(bytes, material.youngs_modulus_pa);
+    append_bytes(bytes, material.poissons_ratio);
+    append_bytes(bytes, material.density_kg_per_m3);
+    return sha256_of(bytes);
+}
+
+double displacement_error(const PreparedMesh& mesh, const StaticAnswer& answer,
+                          const StaticAnswer& reference) {
+    const std::vector<Point> wanted = values_at(mesh.places, reference.displacement_m);
+    std::vector<Point> difference = wanted;
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            difference[k][axis] -= answer.displacement_m[mesh.outer[k]][axis];
+    return root_sum(difference) / root_sum(wanted);
 }
 
 }  // namespace knead::tools

@@ -51,4 +51,11 @@ struct PreparedScene {
 /// The asset of a material on a mesh: all that the scene asks for.
 [[nodiscard]] Asset bake_level(const PreparedScene& prepared, const MaterialObject& object);
 
+/// Of a prepared mesh with these elasticities: names a result's object in the cache.
+[[nodiscard]] std::string hash_of(const PreparedMesh& mesh, const Material& material);
+
+/// Over the mesh's surface nodes: |u - u_reference| / |u_reference|, root mean squares.
+[[nodiscard]] double displacement_error(const PreparedMesh& mesh, const StaticAnswer& answer,
+                                        const StaticAnswer& reference);
+
 }  // namespace knead::tools

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "common/error.h"
-#include "knead/runtime/simulation.h"
+#include "evaluate/pressing.h"
 
 namespace knead::tools {
 namespace {
@@ -24,21 +24,6 @@ constexpr double kStillPerSecond = 1e-6;
 constexpr double kCurveRampS = 15;
 constexpr double kCurveHoldS = 5;
 constexpr int kStepsBetweenPoints = 10;
-
-Simulation simulation_of(const Asset& asset, std::size_t tool) {
-    SimulationConfig config;
-    config.tools = {tool};
-    config.expected_dt_s = kRestDtS;
-    Result<Simulation> created = Simulation::create(asset, config);
-    if (!created.ok()) fail_result("the runtime refuses the asset: " + created.error().text());
-    return std::move(created).value();
-}
-
-Pose moved(Pose pose, const Point& direction, double way_m) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        pose.position_m[axis] += way_m * direction[axis];
-    return pose;
-}
 
 double resistance_n(const Vec3& force_n, const Point& direction) {
     return -(force_n[0] * direction[0] + force_n[1] * direction[1] + force_n[2] * direction[2]);
@@ -69,7 +54,7 @@ using Clock = std::chrono::steady_clock;
 }  // namespace
 
 RuntimeRest press_until_still(const Asset& asset, std::size_t tool, const Point& direction, double way_m) {
-    Simulation simulation = simulation_of(asset, tool);
+    Simulation simulation = simulation_of(asset, tool, kRestDtS);
     const Pose rest = simulation.tool_rest_pose(0);
     const double still_m = kStillPerSecond * size_m(asset) * kRestDtS;
     RuntimeRest result;
@@ -86,7 +71,7 @@ RuntimeRest press_until_still(const Asset& asset, std::size_t tool, const Point&
 }
 
 ForceCurve press_curve(const Asset& asset, std::size_t tool, const Point& direction, double way_m) {
-    Simulation simulation = simulation_of(asset, tool);
+    Simulation simulation = simulation_of(asset, tool, kRestDtS);
     const Pose rest = simulation.tool_rest_pose(0);
     ForceCurve curve;
     const int steps = static_cast<int>(std::lround((kCurveRampS + kCurveHoldS) / kRestDtS));

@@ -10,8 +10,7 @@
 
 #include "baseline/baseline.h"
 #include "baseline/statistics.h"
-#include "common/error.h"
-#include "knead/runtime/simulation.h"
+#include "evaluate/pressing.h"
 
 namespace knead::tools {
 namespace {
@@ -34,12 +33,6 @@ using Clock = std::chrono::steady_clock;
 
 double us_since(Clock::time_point from) {
     return std::chrono::duration<double, std::micro>(Clock::now() - from).count();
-}
-
-Pose moved(Pose pose, const Point& direction, double way_m) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        pose.position_m[axis] += way_m * direction[axis];
-    return pose;
 }
 
 double tremor(double amplitude_m, double frequency_hz, double time_s, double phase_rad) {
@@ -75,15 +68,6 @@ class Presses {
     int step_ = 0;
 };
 
-Simulation simulation_of(const Asset& asset, std::size_t tool) {
-    SimulationConfig config;
-    config.tools = {tool};
-    config.expected_dt_s = kDtS;
-    Result<Simulation> created = Simulation::create(asset, config);
-    if (!created.ok()) fail_result("the runtime refuses the asset: " + created.error().text());
-    return std::move(created).value();
-}
-
 StepTimes times_of(std::vector<double> us, int not_ok) {
     std::sort(us.begin(), us.end());
     return {baseline::percentile(us, 0.5),   baseline::percentile(us, 0.99),
@@ -94,7 +78,7 @@ StepTimes times_of(std::vector<double> us, int not_ok) {
 }  // namespace
 
 StepTimes time_steps(const Asset& asset, std::size_t tool, const Point& direction, double way_m, int steps) {
-    Simulation simulation = simulation_of(asset, tool);
+    Simulation simulation = simulation_of(asset, tool, kDtS);
     Presses presses(simulation.tool_rest_pose(0), direction, way_m);
     std::vector<double> us;
     us.reserve(static_cast<std::size_t>(steps));
@@ -113,7 +97,7 @@ StepTimes time_steps(const Asset& asset, std::size_t tool, const Point& directio
 }
 
 SpeedPair time_in_turns(const Asset& asset, const Point& direction, double way_m, int steps) {
-    Simulation simulation = simulation_of(asset, 0);
+    Simulation simulation = simulation_of(asset, 0, kDtS);
     const baseline::Body body = baseline::make_body(asset);
     baseline::Baseline plain(body);
     const Pose rest = simulation.tool_rest_pose(0);

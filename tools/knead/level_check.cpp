@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "common/error.h"
+#include "knead/formats/asset_object.h"
 #include "knead/formats/numerics.h"
 #include "quality/tool_place.h"
 #include "quality/union_find.h"
@@ -78,22 +79,12 @@ PrescribedMotion motion_of(const Asset& asset, const ToolSet& tool, const Press&
     return motion;
 }
 
-MaterialObject object_of(const Asset& asset, bool uniform) {
-    MaterialObject object;
-    object.mesh.nodes_m = asset.nodes_m;
-    object.mesh.tetrahedra = asset.tetrahedra;
-    for (const std::uint32_t index : asset.palette_index) {
-        const PaletteEntry& entry = asset.palette[index];
-        object.material.youngs_modulus_pa.push_back(uniform ? kUniformModulus_pa : entry.youngs_modulus_pa);
-        object.material.poissons_ratio.push_back(entry.poissons_ratio);
-        object.material.density_kg_per_m3.push_back(entry.density_kg_per_m3);
-    }
-    return object;
-}
-
 /// Force against the press, newtons.
 double force_n(const Asset& asset, const PrescribedMotion& motion, const Press& press, bool uniform) {
-    const MaterialObject object = object_of(asset, uniform);
+    MaterialObject object = object_of(asset);
+    if (uniform)
+        object.material.youngs_modulus_pa.assign(object.material.youngs_modulus_pa.size(),
+                                                 kUniformModulus_pa);
     const StaticSolution solution = StaticProblem(object.mesh, object.material).solve_linear(motion);
     double force = 0;
     for (std::size_t k = asset.nodes_m.size() - asset.free_node_count; k < motion.nodes.size(); ++k)

@@ -45,9 +45,12 @@ std::vector<bool> moves_by_itself(const Asset& asset) {
 
 }  // namespace
 
+bool Conditioning::mass_rules(double dt_s) const {
+    return dt_s * dt_s * stiffness_over_mass_per_s2 <= kSparseInverseMaxStiffness;
+}
+
 Preconditioner Conditioning::preconditioner_at(double dt_s) const {
-    const bool mass_rules = dt_s * dt_s * stiffness_over_mass_per_s2 <= kSparseStiffness;
-    return mass_rules ? Preconditioner::sparse_inverse : numerics.preconditioner;
+    return mass_rules(dt_s) ? Preconditioner::sparse_inverse : numerics.preconditioner;
 }
 
 Conditioning condition_of(const Asset& asset) {

@@ -18,14 +18,11 @@ struct Conditioning {
     /// Shortest time in which a pressure wave crosses a tetrahedron along its smallest height.
     double fastest_crossing_s = 0;
 
+    /// Whether mass outweighs stiffness in steps of `dt_s`.
+    [[nodiscard]] bool mass_rules(double dt_s) const;
     /// What steps of `dt_s` will be preconditioned with: the sparse inverse where mass rules.
     [[nodiscard]] Preconditioner preconditioner_at(double dt_s) const;
 };
-
-/// Where dt^2 times stiffness over mass is at most this, the runtime takes the sparse inverse: the constant
-/// of runtime/src/core/preconditioner.cpp, which tools may not include (docs/simulation.md,
-/// "Preconditioners").
-inline constexpr double kSparseStiffness = 5;
 
 /// Precondition: validate(asset).ok() and a free node.
 [[nodiscard]] Conditioning condition_of(const Asset& asset);

@@ -63,15 +63,14 @@ StepPrediction predict_step(const Asset& asset, const Conditioning& conditioning
     prediction.preconditioner = conditioning.preconditioner_at(kPredictedDt_s);
     prediction.time_us = easy_time_us(static_cast<double>(numerics.tetrahedra)) *
                          hardness(numerics, prediction.preconditioner);
-    const bool mass_rules =
-        kPredictedDt_s * kPredictedDt_s * conditioning.stiffness_over_mass_per_s2 <= kSparseStiffness;
     if (prediction.preconditioner == Preconditioner::factor) {
         prediction.iterations = 2;
         prediction.max_iterations = 7;
     } else if (prediction.preconditioner == Preconditioner::laplacian) {
         prediction.iterations = 3;
         prediction.max_iterations = 6;
-    } else if (!mass_rules) {  // too large for a factor and too hard for a Laplacian: never measured
+    } else if (!conditioning.mass_rules(
+                   kPredictedDt_s)) {  // too large for a factor and too hard for a Laplacian: never measured
         prediction.calibrated = false;
         prediction.iterations = 20;
         prediction.max_iterations = 200;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bake/bake.h"
+#include "knead/formats/asset_object.h"
 #include "stability/criteria.h"
 #include "stability/meshes.h"
 
@@ -91,13 +92,9 @@ SceneTool tool_above(ToolShape shape, ToolContact contact, double side_m) {
 
 Specimen specimen_of(Asset asset) {
     Specimen specimen;
-    specimen.mesh.nodes_m = asset.nodes_m;
-    specimen.mesh.tetrahedra = asset.tetrahedra;
-    for (const std::uint32_t entry : asset.palette_index) {
-        specimen.material.youngs_modulus_pa.push_back(asset.palette[entry].youngs_modulus_pa);
-        specimen.material.poissons_ratio.push_back(asset.palette[entry].poissons_ratio);
-        specimen.material.density_kg_per_m3.push_back(asset.palette[entry].density_kg_per_m3);
-    }
+    MaterialObject object = object_of(asset);
+    specimen.mesh = std::move(object.mesh);
+    specimen.material = std::move(object.material);
     for (auto n = asset.free_node_count; n < asset.nodes_m.size(); ++n)
         specimen.held.nodes.push_back(n);
     specimen.held.displacement_m.assign(specimen.held.nodes.size(), Point{});

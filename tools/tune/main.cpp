@@ -9,7 +9,6 @@
 #include "common/run_tool.h"
 #include "common/stopwatch.h"
 #include "knead/formats/hash.h"
-#include "knead/formats/version.h"
 #include "knead/formats/write/write.h"
 #include "tune/level_writer.h"
 #include "tune/options.h"
@@ -17,12 +16,6 @@
 
 namespace knead::tools {
 namespace {
-
-/// Results belong to the program that made them: another build computes anew.
-std::string program_hash() {
-    const Result<std::string> hash = sha256_of_file("/proc/self/exe");
-    return hash.ok() ? hash.value() : std::string(kLibraryVersion);
-}
 
 /// The scene with what was found, and the object beside it where no key of a level makes it.
 void write_scene(ToolContext& context, const TunedScene& scene, const TuneResult& result,
@@ -66,7 +59,7 @@ ExitCode run(ToolContext& context, const TuneOptions& options, const std::vector
     const TuneRequest request = request_of(options);
     if (!options.json.empty()) context.set_output(options.json);
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, context.threads);
-    const ResultCache cache(cache_folder(options), program_hash());
+    const ResultCache cache = open_cache(options.cache);
     const baseline::Machine machine = baseline::describe_machine();
     std::vector<TuneResult> results;
     for (const auto& file : options.scenes)

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "common/run_tool.h"
 #include "material/csv.h"
@@ -17,11 +16,7 @@ namespace knead::tools {
 namespace {
 
 double within_of(const std::string& typed) {
-    std::string text = typed;
-    const bool percent = !text.empty() && text.back() == '%';
-    if (percent) text.pop_back();
-    const std::optional<double> number = parse_number(text);
-    const double share = number.value_or(-1) / (percent ? 100 : 1);
+    const double share = share_of(typed).value_or(-1);
     if (!(share > 0 && share <= 1))
         fail_usage(fmt::format("--within: \"{}\" is not a share above 0 and up to 100 %, such as 10% or 0.1",
                                typed));
@@ -78,16 +73,7 @@ void declare_options(CLI::App& app, TuneOptions& options) {
                    fmt::format("what makes elasticities, all of: {}", fmt::join(tunable_methods(), ", ")))
         ->delimiter(',')
         ->type_name("NAME,...");
-    app.add_option("--bins", options.bins, "elasticity bins of the paper's method")
-        ->delimiter(',')
-        ->capture_default_str()
-        ->check(CLI::Range(1U, 1000000U))
-        ->type_name("N,...");
-    app.add_option("--clusters", options.clusters, "clusters in each bin of the paper's method")
-        ->delimiter(',')
-        ->capture_default_str()
-        ->check(CLI::Range(1U, 1000000U))
-        ->type_name("K,...");
+    declare_paper_method(app, options.bins, options.clusters);
     app.add_option("--levels", options.levels,
                    "coarse meshes: names of the scene's levels or numbers of tetrahedra [the scene's and a "
                    "range of generated ones]")
@@ -111,11 +97,7 @@ void declare_options(CLI::App& app, TuneOptions& options) {
     app.add_option("--write-scene", options.write_scene,
                    "also write the scene with the level that was found, ready for knead build")
         ->type_name("FILE");
-    auto* cache =
-        app.add_option("--cache", options.cache,
-                       "folder in which results are kept [the user's cache folder, knead/evaluate]");
-    cache->type_name("FOLDER");
-    app.add_flag("--no-cache", options.no_cache, "keep nothing, use nothing kept")->excludes(cache);
+    declare_options(app, options.cache);
 }
 
 double budget_us_of(const std::string& text) {
@@ -162,16 +144,6 @@ TuneRequest request_of(const TuneOptions& options) {
     for (const auto& file : {options.json, options.write_scene})
         if (!file.empty()) require_writable_folder(file);
     return request;
-}
-
-std::filesystem::path cache_folder(const TuneOptions& options) {
-    if (options.no_cache) return {};
-    if (!options.cache.empty()) return options.cache;
-    if (const char* caches = std::getenv("XDG_CACHE_HOME"); caches != nullptr && *caches != '\0')
-        return std::filesystem::path(caches) / "knead" / "evaluate";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return std::filesystem::path(home) / ".cache" / "knead" / "evaluate";
-    return {};
 }
 
 }  // namespace knead::tools

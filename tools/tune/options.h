@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluate/shared_options.h"
 #include "tune/tune.h"
 
 namespace knead::tools {
@@ -30,8 +31,7 @@ struct TuneOptions {
     int repeats = 40;
     std::filesystem::path json;
     std::filesystem::path write_scene;
-    std::filesystem::path cache;
-    bool no_cache = false;
+    CacheOptions cache;
 };
 
 void declare_options(CLI::App& app, TuneOptions& options);
@@ -41,8 +41,5 @@ void declare_options(CLI::App& app, TuneOptions& options);
 
 /// "200us", "0.2ms" or "200" (microseconds). @throws ToolError(bad_usage)
 [[nodiscard]] double budget_us_of(const std::string& text);
-
-/// Where results are kept: that of knead-evaluate; empty: nowhere.
-[[nodiscard]] std::filesystem::path cache_folder(const TuneOptions& options);
 
 }  // namespace knead::tools

@@ -28,33 +28,6 @@ constexpr std::size_t kAggregatedKept = 128;
 constexpr std::size_t kLevelsKept = 32;
 constexpr const char* kScene = "scene";
 
-std::string hash_of(const PreparedMesh& mesh, const Material& material) {
-    std::string bytes = mesh.hash;
-    append_bytes(bytes, material.youngs_modulus_pa);
-    append_bytes(bytes, material.poissons_ratio);
-    append_bytes(bytes, material.density_kg_per_m3);
-    return sha256_of(bytes);
-}
-
-double squares(const std::vector<Point>& values) {
-    double sum = 0;
-    for (const Point& value : values)
-        for (const double x : value)
-            sum += x * x;
-    return sum;
-}
-
-/// Over the surface nodes of the level: |u - u_reference| / |u_reference|, root mean squares.
-double displacement_error(const PreparedMesh& mesh, const StaticAnswer& answer,
-                          const StaticAnswer& reference) {
-    const std::vector<Point> wanted = values_at(mesh.places, reference.displacement_m);
-    std::vector<Point> difference = wanted;
-    for (std::size_t k = 0; k < wanted.size(); ++k)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            difference[k][axis] -= answer.displacement_m[mesh.outer[k]][axis];
-    return std::sqrt(squares(difference) / squares(wanted));
-}
-
 std::string to_cache(const LoadAnswer& answer) {
     return nlohmann::ordered_json{{"converged", answer.converged},
                                   {"problem", answer.problem},

@@ -21,10 +21,6 @@ constexpr Real kTurnSparse_rad = 0.15;
 /// Time in which the rotations of all nodes are taken anew, a share in each step; and the most shares.
 constexpr Real kRotationsIn_s = 32e-3;
 constexpr std::uint32_t kRotationShares = 32;
-/// Where dt^2 times stiffness over mass, node for node, is below this on average, the inverse hardly reaches
-/// beyond the neighbours: one iteration with the sparse inverse leaves less than a tenth of the error, for a
-/// fraction of the work of a factor.
-constexpr Real kSparseStiffness = 5;
 /// Free nodes that tools may touch, up to which the correction for contact is kept: its table grows with the
 /// square, and takes 9 MB here.
 constexpr std::size_t kMostTouchable = 512;
@@ -122,13 +118,13 @@ Preconditioner<S>::Preconditioner(const Model& model, const Stiffness<S>& at_res
 
 template <class S>
 bool Preconditioner<S>::sparse_suffices(Real dt_s) const noexcept {
-    return !factor_ || dt_s * dt_s * stiffness_per_s2_ <= kSparseStiffness;
+    return !factor_ || dt_s * dt_s * stiffness_per_s2_ <= kSparseInverseMaxStiffness;
 }
 
 template <class S>
 bool Preconditioner<S>::is_close(Real dt_s) const noexcept {
     return about_same(dt_s, dt_s_) &&
-           (!uses_sparse_ || dt_s_ * dt_s_ * stiffness_per_s2_ <= kSparseStiffness);
+           (!uses_sparse_ || dt_s_ * dt_s_ * stiffness_per_s2_ <= kSparseInverseMaxStiffness);
 }
 
 /// Everything for one dt at once: when loading and on reset.

@@ -90,8 +90,7 @@ class TypedStepper final : public Stepper {
         void begin() noexcept { looks_ = 0; }
         bool stops(const Solution<V>& /*solution*/) noexcept override {
             if (limits_.belief == Belief::never || ++looks_ > kMostLooks) return false;
-            return stepper_.judge(limits_, true,
-                                  [&](const Attempt& attempt) { return stepper_.contact_.glance(attempt); });
+            return stepper_.contact_.glance(stepper_.attempt(limits_, true));
         }
 
       private:
@@ -116,8 +115,7 @@ class TypedStepper final : public Stepper {
     void linearise(const System<V>& system) noexcept;
     std::uint32_t solve_with_contact(const System<V>& system) noexcept;
     [[nodiscard]] bool settled(const SolverLimits& limits, std::uint32_t& status) noexcept;
-    template <class Judge>
-    auto judge(const SolverLimits& limits, bool early, Judge&& judge) noexcept;
+    [[nodiscard]] Attempt attempt(const SolverLimits& limits, bool early) const noexcept;
     [[nodiscard]] bool finite() const noexcept;
     void accept(const Frame* hands, Real dt, bool failed) noexcept;
     void go_beyond(const NodeField<S>& d, Real dt) noexcept;
@@ -403,25 +401,21 @@ std::uint32_t TypedStepper<S, V>::solve_with_contact(const System<V>& system) no
     return kStepContactCap;
 }
 
-/// What `judge` says of the contact in the solution of now.
+/// The solution of now, for the contact to judge.
 template <class S, class V>
-template <class Judge>
-auto TypedStepper<S, V>::judge(const SolverLimits& limits, bool early, Judge&& judge) noexcept {
-    const NodeReader predicted(model_.rest_m, predicted_);
-    const NodeReader solved(model_.rest_m, predicted_, solution_.displacement.nodes);
+Attempt TypedStepper<S, V>::attempt(const SolverLimits& limits, bool early) const noexcept {
     Real force = 0;
     for (const Vec& f : solution_.force_n)
         force = std::max(force, f.norm());
     const Real touched = static_cast<Real>(std::max<std::size_t>(1, contact_.constraints().size()));
-    const Attempt attempt{predicted,
-                          solved,
-                          solution_.displacement.tools,
-                          solution_.row_n,
-                          travel_m(),
-                          (early ? kPullSeenEarly : 1) * limits.force_tolerance * force / touched,
-                          kConePerForceTolerance * limits.force_tolerance,
-                          early};
-    return judge(attempt);
+    return {NodeReader(model_.rest_m, predicted_),
+            NodeReader(model_.rest_m, predicted_, solution_.displacement.nodes),
+            solution_.displacement.tools,
+            solution_.row_n,
+            travel_m(),
+            (early ? kPullSeenEarly : 1) * limits.force_tolerance * force / touched,
+            kConePerForceTolerance * limits.force_tolerance,
+            early};
 }
 
 /// Whether the step ends with this solve, and how.
@@ -430,11 +424,10 @@ bool TypedStepper<S, V>::settled(const SolverLimits& limits, std::uint32_t& stat
     if (!solution_.converged) status = kStepNotConverged;
     if (!unilateral_) return true;
     if (!solution_.converged) {
-        judge(limits, false, [&](const Attempt& attempt) { contact_.measure(attempt); });
+        contact_.measure(attempt(limits, false));
         return true;
     }
-    const Contact::Revision revision =
-        judge(limits, false, [&](const Attempt& attempt) { return contact_.revise(attempt); });
+    const Contact::Revision revision = contact_.revise(attempt(limits, false));
     if (revision == Contact::Revision::given_up) status = kStepContactCap;
     return revision != Contact::Revision::changed;
 }

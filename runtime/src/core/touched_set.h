@@ -41,8 +41,8 @@ struct Candidate {
 
 /// What a solve found for the tools, and how exactly.
 struct Attempt {
-    const NodeReader& predicted;                  ///< what constraints are relative to
-    const NodeReader& solved;                     ///< where the nodes are now
+    NodeReader predicted;                         ///< what constraints are relative to
+    NodeReader solved;                            ///< where the nodes are now
     const std::vector<Vec>& tool_displacement_m;  ///< [tools] beyond the prediction; zero unless coupled
     const std::vector<Vec>& row_n;                ///< [constraints] of the held nodes, as in force_on_tool()
     Real travel_m = 0;                            ///< no node has moved farther since the step before

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "knead/formats/asset_object.h"
 #include "reference/elastic_body.h"
 #include "unit/runtime/block_asset.h"
 
@@ -26,16 +27,8 @@ bool moves_by_itself(const Asset& asset, std::uint32_t node) {
 TEST(Conditioning, Bounds_node_stiffness_as_the_reference_solver_has_it) {
     Asset asset = test::cube_asset(3, ToolShape::plate, ToolContact::bonded);
     test::make_heterogeneous(asset, 5);
-    TetMesh mesh;
-    mesh.nodes_m = asset.nodes_m;
-    mesh.tetrahedra = asset.tetrahedra;
-    Material material;
-    for (const std::uint32_t index : asset.palette_index) {
-        material.youngs_modulus_pa.push_back(asset.palette[index].youngs_modulus_pa);
-        material.poissons_ratio.push_back(asset.palette[index].poissons_ratio);
-        material.density_kg_per_m3.push_back(asset.palette[index].density_kg_per_m3);
-    }
-    const ElasticBody body(mesh, material);
+    const MaterialObject object = object_of(asset);
+    const ElasticBody body(object.mesh, object.material);
     std::vector<double> bound(asset.free_node_count, 0);
     for (std::size_t t = 0; t < body.tetrahedron_count(); ++t) {
         const Matrix12d k = body.stiffness_n_per_m(t, body.rest_positions_m(), Curvature::exact);

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cstring>
 
+#include "knead/formats/asset_object.h"
 #include "knead/runtime/simulation.h"
 #include "reference/elastic_body.h"
 #include "unit/runtime/block_asset.h"
@@ -166,16 +167,8 @@ class Oracle {
 
   private:
     static tools::ElasticBody make_body(const Asset& asset) {
-        TetMesh mesh;
-        mesh.nodes_m = asset.nodes_m;
-        mesh.tetrahedra = asset.tetrahedra;
-        Material material;
-        for (const std::uint32_t k : asset.palette_index) {
-            material.youngs_modulus_pa.push_back(asset.palette[k].youngs_modulus_pa);
-            material.poissons_ratio.push_back(asset.palette[k].poissons_ratio);
-            material.density_kg_per_m3.push_back(asset.palette[k].density_kg_per_m3);
-        }
-        return {mesh, material};
+        const MaterialObject object = object_of(asset);
+        return {object.mesh, object.material};
     }
 
     const Asset& asset_;
