@@ -8,12 +8,12 @@ namespace knead::core {
 namespace {
 
 template <class S>
-void find_rotation(const S* f, S* q) {
-    Mat matrix;
+void find_rotation(const S* grad_u, S* q) {
+    Mat f = Mat::Identity();
     for (int k = 0; k < 9; ++k)
-        matrix(k / 3, k % 3) = static_cast<Real>(f[k]);
-    if (!matrix.allFinite()) return;
-    const Quat result = nearest_rotation(matrix);
+        f(k / 3, k % 3) += static_cast<Real>(grad_u[k]);
+    if (!f.allFinite()) return;
+    const Quat result = nearest_rotation(f);
     q[0] = static_cast<S>(result.w());
     q[1] = static_cast<S>(result.x());
     q[2] = static_cast<S>(result.y());

@@ -276,6 +276,7 @@ void Solver<S>::solve(const System<S>& system, const Preconditioner<S>& precondi
         if (rz == 0) solution.converged = true;  // nothing left to do, exactly
         if (!(rz > 0)) break;                    // negative or not a number: a failure, never convergence
         const Real curvature = find_curvature(system);
+        if (curvature == 0) solution.converged = true;  // A is definite: beneath the smallest numbers
         if (!(curvature > 0)) break;
         const Real alpha = rz / curvature;
         ++solution.iterations;

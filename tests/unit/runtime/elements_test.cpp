@@ -10,13 +10,13 @@
 #include "support/random.h"
 #include "support/svd_rotation.h"
 #include "unit/runtime/block_asset.h"
+#include "unit/runtime/element_oracles.h"
 
 namespace knead::core {
 namespace {
 
 using test::asset_of;
 using test::Random;
-using test::svd_rotation;
 
 /// Central differences of an energy around 1 J with steps of 1e-6 m, against forces around 1e3 N.
 constexpr double kDifferenceTolerance = 1e-6;
@@ -26,6 +26,10 @@ constexpr double kRounding = std::is_same_v<S, float> ? 1e-5 : 1e-12;
 /// What Newton's last step leaves (its square), and rounding; relative to how well the rotation is defined.
 template <class S>
 constexpr double kAngleTolerance = std::is_same_v<S, float> ? 2e-6 : 1e-12;
+
+/// Forces of small displacements, of their largest: rounding, and what one Newton step leaves of a turn of
+/// kSmallTurn (element_kernels.inl), a quarter of its square.
+constexpr double kSmallForceTolerance = 3e-6;
 
 std::vector<SimdTarget> targets() {
     std::vector<SimdTarget> result;
@@ -124,74 +128,11 @@ class Body {
     Elements<S, V> elements_;
 };
 
-double largest(const Field& field) {
-    double result = 0;
-    for (const Vec& v : field)
-        result = std::max(result, v.norm());
-    return result;
-}
-
 double difference(const Field& a, const Field& b) {
     double result = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
         result = std::max(result, (a[i] - b[i]).norm());
     return result;
-}
-
-// ---- Oracles: one tetrahedron after the other in double precision, rotations by Eigen's SVD.
-
-Mat edges_of(const Element& element, const Field& x) {
-    Mat edges;
-    for (int k = 0; k < 3; ++k)
-        edges.col(k) = x[element.nodes[static_cast<std::size_t>(k) + 1]] - x[element.nodes[0]];
-    return edges;
-}
-
-Mat deformation_gradient(const Model& model, const Element& element, const Field& u) {
-    return Mat::Identity() + edges_of(element, u) * edges_of(element, model.rest_m).inverse();
-}
-
-double energy(const Model& model, const Field& u) {
-    double sum = 0;
-    for (const Element& element : model.elements) {
-        const Mat f = deformation_gradient(model, element, u);
-        const Mat r = svd_rotation(f);
-        const double stretch = (r.transpose() * f - Mat::Identity()).trace();
-        sum += element.mu_volume * (f - r).squaredNorm() + element.lambda_volume / 2 * stretch * stretch;
-    }
-    return sum;
-}
-
-/// force(element, F, R): 3 x 3, the forces on nodes 1 to 3 in its columns.
-template <class Force>
-Field assembled(const Model& model, const Field& u, Force&& force) {
-    Field result(u.size(), Vec::Zero());
-    for (const Element& element : model.elements) {
-        const Mat f = deformation_gradient(model, element, u);
-        const Mat corners =
-            force(element, f, svd_rotation(f)) * edges_of(element, model.rest_m).inverse().transpose();
-        for (int k = 0; k < 3; ++k) {
-            result[element.nodes[static_cast<std::size_t>(k) + 1]] += corners.col(k);
-            result[element.nodes[0]] -= corners.col(k);
-        }
-    }
-    return result;
-}
-
-Field expected_forces(const Model& model, const Field& u) {
-    return assembled(model, u, [](const Element& element, const Mat& f, const Mat& r) -> Mat {
-        return -2 * element.mu_volume * (f - r) -
-               element.lambda_volume * ((r.transpose() * f).trace() - 3) * r;
-    });
-}
-
-/// K(R) p with the rotations at u: linear elasticity in every tetrahedron's own frame.
-Field expected_product(const Model& model, const Field& u, const Field& p) {
-    return assembled(model, u, [&](const Element& element, const Mat&, const Mat& r) -> Mat {
-        const Mat h = r.transpose() * edges_of(element, p) * edges_of(element, model.rest_m).inverse();
-        return r * (element.mu_volume * (h + h.transpose()) +
-                    element.lambda_volume * h.trace() * Mat::Identity());
-    });
 }
 
 template <class S, class V>
@@ -268,6 +209,41 @@ TEST(ElementForces, after_a_turn_that_takes_one_newton_step_are_zero) {
     const double scale = 42e3 * 0.1 * 0.1;
     for (const SimdTarget target : targets())
         EXPECT_LT(largest(Body<float>(model, target).linearise(u)), 1e-6 * scale);
+}
+
+template <class S, class V>
+void expect_small_forces(SimdTarget target) {
+    const Model model = irregular_block();
+    Body<S, V> fresh(model, target), moved(model, target);
+    for (const double size_m : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-20}) {
+        const Field u = random_move(model, size_m, 31), expected = expected_small_forces(model, u);
+        const double tolerance = kSmallForceTolerance * largest(expected);
+        fresh.elements().reset();
+        EXPECT_LT(difference(fresh.linearise(u), expected), tolerance) << size_m;
+        (void)moved.linearise(random_move(model, 1e-3, 32));
+        (void)moved.linearise(u);  // the turn that is left is a rounding of the larger one's
+        EXPECT_LT(difference(moved.linearise(u), expected), tolerance) << size_m;
+    }
+}
+
+TEST(ElementForces, of_small_displacements_keep_their_relative_precision) {
+    for (const SimdTarget target : targets()) {
+        SCOPED_TRACE(static_cast<int>(target));
+        expect_small_forces<float, float>(target);
+        expect_small_forces<double, float>(target);
+        expect_small_forces<double, double>(target);
+    }
+}
+
+TEST(ElementForces, at_rest_are_exactly_zero) {
+    const Model model = irregular_block();
+    const Field rest(model.rest_m.size(), Vec::Zero());
+    for (const SimdTarget target : targets()) {
+        Body<float> body(model, target);
+        for (int k = 0; k < 3; ++k)
+            EXPECT_EQ(body.linearise(rest), rest);
+        EXPECT_EQ(body.rotation(0), Mat::Identity());
+    }
 }
 
 TEST(ElementForces, of_an_affine_move_balance_inside) {

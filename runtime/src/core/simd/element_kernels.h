@@ -36,9 +36,10 @@ struct ElementArrays {
 
 /// Finds the rotation of one deformation gradient from scratch (rotation.h), for lanes whose warm start
 /// failed.
-/// @param f [9] row-major  @param q [4] w, x, y, z; left alone if f is not finite
+/// @param grad_u [9] row-major, of displacements: the deformation gradient less the identity
+/// @param q [4] w, x, y, z; left alone if grad_u is not finite
 template <class S>
-using RotationFallback = void (*)(const S* f, S* q);
+using RotationFallback = void (*)(const S* grad_u, S* q);
 
 /// The passes over the tetrahedra. Fields have four numbers a node, the fourth zero, and a node of zeros at
 /// the end. All pointers are aligned to 64 bytes.

@@ -29,15 +29,26 @@ inline constexpr S kLargeTurn = 1;
 template <class S>
 inline constexpr S kSingularHessian = sizeof(S) == 4 ? S(1e-5) : S(1e-12);
 
+// Deformation gradients F are kept as grad u = F - I and rotations R as D = R - I: beside a 1, floats would
+// round strains and turns to 1e-7 of it. So both are precise relative to themselves, however small.
+
+/// D = R - I.
 template <class S, int W>
-inline Matrices3<S, W> rotation_matrices(const Quaternions<S, W>& q) {
+inline Matrices3<S, W> rotations_less_identity(const Quaternions<S, W>& q) {
     using V = Vector<S, W>;
     const V x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
     const V wx = x2 * q.w, wy = y2 * q.w, wz = z2 * q.w;
-    const V without_x = S(1) - x2 * q.x, without_xy = without_x - y2 * q.y;
-    return {{S(1) - y2 * q.y - z2 * q.z, x2 * q.y - wz, x2 * q.z + wy,  //
-             x2 * q.y + wz, without_x - z2 * q.z, y2 * q.z - wx,        //
-             x2 * q.z - wy, y2 * q.z + wx, without_xy}};
+    const V xx = x2 * q.x, yy = y2 * q.y;
+    return {{-(z2 * q.z) - yy, x2 * q.y - wz, x2 * q.z + wy,  //
+             x2 * q.y + wz, -(z2 * q.z) - xx, y2 * q.z - wx,  //
+             x2 * q.z - wy, y2 * q.z + wx, -(y2 * q.y) - xx}};
+}
+
+template <class S, int W>
+inline Matrices3<S, W> plus_identity(Matrices3<S, W> d) {
+    for (int i = 0; i < 3; ++i)
+        d(i, i) += S(1);
+    return d;
 }
 
 /// q * (1, half), normalised.
@@ -60,27 +71,29 @@ struct Turns {
     Vector<S, W> half2;        ///< its square
     Vector<S, W> determinant;  ///< of the Hessian, less the least that is accepted
     Vector<S, W> minor1, minor2;
-    Vector<S, W> trace;  ///< of R^T F after the turn, but for a third power of it
+    Vector<S, W> stretch;  ///< tr(R^T F) - 3 after the turn, but for a third power of it
 };
 
-/// One Newton step of the analytic polar decomposition (rotation.h) from rotation r: the maximum of the
-/// second-order expansion tr(R exp([w])^T F) = tr(B) + w . g - w . H w / 2.
+/// One Newton step of the analytic polar decomposition (rotation.h) from rotation R = I + D: the maximum of
+/// the second-order expansion tr(R exp([w])^T F) = tr(B) + w . g - w . H w / 2 with B = R^T F.
 template <class S, int W>
-inline Turns<S, W> newton_step(const Matrices3<S, W>& f, const Matrices3<S, W>& r) {
+inline Turns<S, W> newton_step(const Matrices3<S, W>& grad_u, const Matrices3<S, W>& d) {
     using V = Vector<S, W>;
-    Matrices3<S, W> b;  // R^T F
+    const Matrices3<S, W> r = plus_identity(d);
+    Matrices3<S, W> e;  // B - I = D^T + R^T grad u
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j)
-            b(i, j) = r(0, i) * f(0, j) + r(1, i) * f(1, j) + r(2, i) * f(2, j);
+            e(i, j) = d(j, i) + r(0, i) * grad_u(0, j) + r(1, i) * grad_u(1, j) + r(2, i) * grad_u(2, j);
     }
-    const V gx = b(2, 1) - b(1, 2), gy = b(0, 2) - b(2, 0), gz = b(1, 0) - b(0, 1);
-    const V hxx = b(1, 1) + b(2, 2), hyy = b(0, 0) + b(2, 2), hzz = b(0, 0) + b(1, 1);
-    const V hxy = S(-0.5) * (b(0, 1) + b(1, 0)), hxz = S(-0.5) * (b(0, 2) + b(2, 0)),
-            hyz = S(-0.5) * (b(1, 2) + b(2, 1));
+    const V gx = e(2, 1) - e(1, 2), gy = e(0, 2) - e(2, 0), gz = e(1, 0) - e(0, 1);
+    const V stretch = e(0, 0) + e(1, 1) + e(2, 2), less_one = S(2) + stretch;  // tr(B) - 3, - 1
+    const V hxx = less_one - e(0, 0), hyy = less_one - e(1, 1), hzz = less_one - e(2, 2);
+    const V hxy = S(-0.5) * (e(0, 1) + e(1, 0)), hxz = S(-0.5) * (e(0, 2) + e(2, 0)),
+            hyz = S(-0.5) * (e(1, 2) + e(2, 1));
     const V cxx = hyy * hzz - hyz * hyz, cxy = hxz * hyz - hxy * hzz, cxz = hxy * hyz - hxz * hyy;
     const V cyy = hxx * hzz - hxz * hxz, cyz = hxy * hxz - hxx * hyz, czz = hxx * hyy - hxy * hxy;
+    const V trace = S(3) + stretch;
     const V determinant = hxx * cxx + hxy * cxy + hxz * cxz;
-    const V trace = hxx + b(0, 0);
     const V half_inverse = S(0.5) / determinant;
     Turns<S, W> result;
     result.half = {(cxx * gx + cxy * gy + cxz * gz) * half_inverse,
@@ -91,7 +104,17 @@ inline Turns<S, W> newton_step(const Matrices3<S, W>& f, const Matrices3<S, W>& 
     result.determinant = determinant - (8 * kSingularHessian<S> * trace) * (trace * trace);
     result.minor1 = hxx;
     result.minor2 = czz;
-    result.trace = trace + (x * gx + y * gy + z * gz);
+    result.stretch = stretch + (x * gx + y * gy + z * gz);
+    return result;
+}
+
+/// tr(R^T F) - 3 = tr(D) + tr(R^T grad u).
+template <class S, int W>
+inline Vector<S, W> stretch_of(const Matrices3<S, W>& grad_u, const Matrices3<S, W>& d) {
+    const Matrices3<S, W> r = plus_identity(d);
+    Vector<S, W> result = d(0, 0) + d(1, 1) + d(2, 2);
+    for (int k = 0; k < 9; ++k)
+        result += r.m[k] * grad_u.m[k];
     return result;
 }
 
@@ -103,10 +126,10 @@ inline auto is_definite(const Turns<S, W>& turn) {
 }
 
 template <class S, int W>
-void fall_back(const Matrices3<S, W>& f, Quaternions<S, W>& q, int lane, RotationFallback<S> fallback) {
+void fall_back(const Matrices3<S, W>& grad_u, Quaternions<S, W>& q, int lane, RotationFallback<S> fallback) {
     S matrix[9], quaternion[4] = {q.w[lane], q.x[lane], q.y[lane], q.z[lane]};
     for (int k = 0; k < 9; ++k)
-        matrix[k] = f.m[k][lane];
+        matrix[k] = grad_u.m[k][lane];
     fallback(matrix, quaternion);
     q.w[lane] = quaternion[0];
     q.x[lane] = quaternion[1];
@@ -116,11 +139,11 @@ void fall_back(const Matrices3<S, W>& f, Quaternions<S, W>& q, int lane, Rotatio
 
 /// Newton steps until all lanes are done; lanes where they lead nowhere fall back. @param turn the first one
 template <class S, int W>
-[[gnu::noinline]] void find_rotations(const Matrices3<S, W>& f, Turns<S, W> turn, Quaternions<S, W>& q,
+[[gnu::noinline]] void find_rotations(const Matrices3<S, W>& grad_u, Turns<S, W> turn, Quaternions<S, W>& q,
                                       RotationFallback<S> fallback) {
     using V = Vector<S, W>;
     for (int step = 0; step < kNewtonSteps; ++step) {
-        if (step > 0) turn = newton_step(f, rotation_matrices(q));
+        if (step > 0) turn = newton_step(grad_u, rotations_less_identity(q));
         const auto valid = is_definite(turn) & (turn.half2 < kLargeTurn<S> * kLargeTurn<S> / 4);
         const auto done = valid & (turn.half2 < kSmallTurn<S> * kSmallTurn<S> / 4);
         const V zero{};
@@ -130,7 +153,7 @@ template <class S, int W>
         const bool last = step == kNewtonSteps - 1;
         if (!last && all(valid)) continue;
         for (int lane = 0; lane < W; ++lane) {
-            if (!valid[lane] || (last && !done[lane])) fall_back(f, q, lane, fallback);
+            if (!valid[lane] || (last && !done[lane])) fall_back(grad_u, q, lane, fallback);
         }
         if (all(done | ~valid)) return;
     }
@@ -150,24 +173,21 @@ inline void store_quaternions(S* to, const Quaternions<S, W>& q) {
     store(to + 3 * Stride, q.z);
 }
 
-/// Updates the rotations R nearest to f. @return tr(R^T F)
+/// Updates the rotations R nearest to F = I + grad u. @return tr(R^T F) - 3
 template <class S, int W, int Stride>
-inline Vector<S, W> update_rotations(const Matrices3<S, W>& f, S* state, RotationFallback<S> fallback) {
+inline Vector<S, W> update_rotations(const Matrices3<S, W>& grad_u, S* state, RotationFallback<S> fallback) {
     Quaternions<S, W> q = load_quaternions<S, W, Stride>(state);
-    const Turns<S, W> turn = newton_step(f, rotation_matrices(q));
-    Vector<S, W> trace = turn.trace;
+    const Turns<S, W> turn = newton_step(grad_u, rotations_less_identity(q));
+    Vector<S, W> stretch = turn.stretch;
     const auto done = is_definite(turn) & (turn.half2 < kSmallTurn<S> * kSmallTurn<S> / 4);
     if (all(done)) [[likely]] {
         q = turned(q, turn.half);
     } else {
-        find_rotations(f, turn, q, fallback);
-        const Matrices3<S, W> r = rotation_matrices(q);
-        trace = Vector<S, W>{};
-        for (int k = 0; k < 9; ++k)
-            trace += r.m[k] * f.m[k];
+        find_rotations(grad_u, turn, q, fallback);
+        stretch = stretch_of(grad_u, rotations_less_identity(q));
     }
     store_quaternions<Stride>(state, q);
-    return trace;
+    return stretch;
 }
 
 /// From node 0 of a strip to three following ones: those of one tetrahedron.
@@ -275,7 +295,7 @@ inline void store_narrowed(V* to, Vector<S, W> v) {
 /// Row k: the force on node k + 1; stores what is linearised.
 template <class S, class V, int W>
 inline void forces_of(const ElementArrays<S, V>& elements, Place<S, V> place, S scale,
-                      const Matrices3<S, W>& f, Vector<S, W> trace, Vectors3<S, W> (&force)[3]) {
+                      const Matrices3<S, W>& grad_u, Vector<S, W> stretch, Vectors3<S, W> (&force)[3]) {
     constexpr int kWidth = kLanes<V>;
     const StiffnessArrays<V>& to = elements.linearised;
     // Made again from the quaternions: as fast as nine more stores and loads.
@@ -287,14 +307,16 @@ inline void forces_of(const ElementArrays<S, V>& elements, Place<S, V> place, S 
         store_narrowed<S, W>(rotations + 2 * kWidth, q.y);
         store_narrowed<S, W>(rotations + 3 * kWidth, q.z);
     }
-    const Matrices3<S, W> r = rotation_matrices(q);
+    const Matrices3<S, W> d = rotations_less_identity(q), r = plus_identity(d);
     const auto two_mu = (2 * scale) * widened<S, W>(to.lame_volume + place.of(2));
-    const auto lambda = scale * widened<S, W>(to.lame_volume + place.of(2) + kWidth);
+    const auto pressure = stretch * (scale * widened<S, W>(to.lame_volume + place.of(2) + kWidth));
+    const auto turned_part = two_mu - pressure;
     // Minus the stress times the volume: the force of a node is this times its gradient.
-    const auto turned_part = two_mu - lambda * (trace - S(3));
     Matrices3<S, W> p;
     for (int k = 0; k < 9; ++k)
-        p.m[k] = turned_part * r.m[k] - two_mu * f.m[k];
+        p.m[k] = turned_part * d.m[k] - two_mu * grad_u.m[k];
+    for (int i = 0; i < 3; ++i)
+        p(i, i) -= pressure;
     const auto b = load_matrices<S, W, kWidth>(elements.rest_inverse + place.of(9));
     V* const gradients = to.gradients + place.of(9);
     for (int k = 0; k < 3; ++k) {
@@ -312,8 +334,8 @@ void linearise(const ElementArrays<S, V>& elements, S scale, const S* u, S* forc
                RotationFallback<S> fallback) {
     constexpr int W = kLanes<S>, kWidth = kLanes<V>;
     constexpr std::size_t N = kTetsInStrip, kParts = kWidth / W;
-    Matrices3<S, W> f[kStage * N];
-    Vector<S, W> trace[kStage * N];
+    Matrices3<S, W> grad_u[kStage * N];
+    Vector<S, W> stretch[kStage * N];
     const auto nodes_of = [&](std::size_t part) {
         return elements.linearised.nodes + part / kParts * (N + 3) * kWidth + part % kParts * W;
     };
@@ -326,23 +348,21 @@ void linearise(const ElementArrays<S, V>& elements, S scale, const S* u, S* forc
         for (std::size_t k = 0; k < count; ++k) {
             for_edges_of_strip<S, W, kWidth>(
                 u, nodes_of(first + k), [&](std::size_t t, const Edges<S, W>& edges) {
-                    Matrices3<S, W>& to = f[k * N + t];
-                    to = gradient_of<S, W>(edges, load_matrices<S, W, kWidth>(elements.rest_inverse +
-                                                                              place_of(first + k, t).of(9)));
-                    for (int i = 0; i < 3; ++i)
-                        to(i, i) += S(1);
+                    grad_u[k * N + t] = gradient_of<S, W>(
+                        edges,
+                        load_matrices<S, W, kWidth>(elements.rest_inverse + place_of(first + k, t).of(9)));
                 });
         }
         for (std::size_t k = 0; k < count * N; ++k)
-            trace[k] = update_rotations<S, W, kWidth>(
-                f[k], elements.rotations + place_of(first + k / N, k % N).of(4), fallback);
+            stretch[k] = update_rotations<S, W, kWidth>(
+                grad_u[k], elements.rotations + place_of(first + k / N, k % N).of(4), fallback);
         for (std::size_t k = 0; k < count; ++k) {
             StripForces<S, W, kWidth> sums(nodes_of(first + k), forces);
 #pragma GCC unroll 8
             for (std::size_t t = 0; t < N; ++t) {
                 Vectors3<S, W> force[3];
-                forces_of<S, V, W>(elements, place_of(first + k, t), scale, f[k * N + t], trace[k * N + t],
-                                   force);
+                forces_of<S, V, W>(elements, place_of(first + k, t), scale, grad_u[k * N + t],
+                                   stretch[k * N + t], force);
                 sums.add(t, force);
             }
             sums.finish();
