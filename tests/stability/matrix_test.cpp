@@ -22,9 +22,6 @@ const std::map<std::string, std::string>& known_faults() {
         {"mesh/slivers thin at 1 degrees, nu 0.49, dt 10 ms", "one linearisation"},
         {"mesh/slivers flat at 0.5 degrees, nu 0.3, dt 10 ms", "one linearisation"},
         {"mesh/slivers thin at 0.5 degrees, nu 0.49, dt 10 ms", "one linearisation"},
-        {"tool/sphere coulomb sliding, nu 0.49", "slips near sticking"},  // shortened only
-        {"free/hit aside at 0.5 m/s, E 1000 Pa, nu 0.3, dt 1 ms, 1 s", "spin of a soft body"},
-        {"free/hit aside at 0.5 m/s, E 1e+09 Pa, nu 0.3, dt 1 ms, 1 s", "velocity tolerance"},
     };
     return faults;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reference/elastic_body.h"
 #include "stability/cells.h"
@@ -28,6 +29,7 @@ constexpr double kAside = 0.3;  // of the side: from the middle
 constexpr double kCalmTimes = 10;
 
 struct Motion {
+    Eigen::Matrix3Xd velocities;                         ///< [nodes] beyond that of the centre of mass, m/s
     Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  ///< kg m/s
     Eigen::Vector3d spin = Eigen::Vector3d::Zero();      ///< about the centre of mass, kg m^2/s
     double energy_j = 0;
@@ -44,6 +46,7 @@ Motion motion_of(const ElasticBody& body, const Simulation& simulation) {
     Motion motion;
     motion.momentum = v * mass;
     motion.finite = x.allFinite() && v.allFinite();
+    motion.velocities = v.colwise() - motion.momentum / mass.sum();
     for (Eigen::Index i = 0; i < nodes; ++i) {
         const Eigen::Vector3d arm = x.col(i) - middle, velocity = v.col(i);
         motion.spin += mass[i] * arm.cross(velocity);
@@ -51,6 +54,20 @@ Motion motion_of(const ElasticBody& body, const Simulation& simulation) {
     }
     motion.energy_j += body.energy_j(Eigen::Map<const Eigen::VectorXd>(x.data(), 3 * nodes));
     return motion;
+}
+
+/// What implicit Euler itself, solved to the end, makes of the angular momentum in a step of a body on which
+/// nothing acts. Forces without a torque about where they act give sum m x1 x (v1 - v0) = 0, and with
+/// x1 = x0 + dt v1 the angular momentum changes by dt sum m v1 x v0: it brakes a spin, and takes from or
+/// gives to one what vibrates.
+Eigen::Vector3d spin_of_implicit_euler(const ElasticBody& body, const Motion& before, const Motion& after,
+                                       double dt_s) {
+    Eigen::Vector3d change = Eigen::Vector3d::Zero();
+    for (Eigen::Index i = 0; i < after.velocities.cols(); ++i) {
+        const Eigen::Vector3d v0 = before.velocities.col(i), v1 = after.velocities.col(i);
+        change += dt_s * body.lumped_mass_kg()[i] * v1.cross(v0);
+    }
+    return change;
 }
 
 Specimen free_cube(const Shot& shot) {
@@ -72,7 +89,7 @@ void fly(const Shot& shot, CellResult& result) {
     const Pose rest = simulation.tool_rest_pose();
     const double hit_s = std::max(kDepth * kSide_m / shot.speed_m_per_s, 5 * shot.dt_s);
     const double calm_s = 2 * hit_s + kCalmTimes * kSide_m / specimen.shear_speed_m_per_s;
-    Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
+    Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), of_the_method = Eigen::Vector3d::Zero();
     Motion start, now;
     bool started = false, finite = true;
     double worst_momentum = 0, spin_growth = 0, energy_growth = 0, touching_after = 0;
@@ -89,16 +106,18 @@ void fly(const Shot& shot, CellResult& result) {
         status |= step.status;
         most_iterations = std::max(most_iterations, step.solver_iterations);
         if (time_s < calm_s) continue;
-        now = motion_of(body, simulation);
+        const Motion before = std::exchange(now, motion_of(body, simulation));
         finite = finite && now.finite;
         touching_after += step.touched_nodes;
         if (!started) {
             start = now;
             started = true;
+        } else {
+            of_the_method += spin_of_implicit_euler(body, before, now, shot.dt_s);
         }
         worst_momentum =
             std::max(worst_momentum, (now.momentum - start.momentum).norm() / start.momentum.norm());
-        spin_growth = std::max(spin_growth, now.spin.norm() / start.spin.norm() - 1);
+        spin_growth = std::max(spin_growth, (now.spin - of_the_method).norm() / start.spin.norm() - 1);
         energy_growth = std::max(energy_growth, now.energy_j / start.energy_j - 1);
     }
     result.steps += steps;
@@ -109,7 +128,8 @@ void fly(const Shot& shot, CellResult& result) {
         must_be("flies", touching_after == 0 && start.spin.norm() > 0, "it does not fly free"));
     result.checks.push_back(at_most("impulse", (impulse - start.momentum).norm() / impulse.norm(),
                                     criteria::kMomentum, "momentum against what the tool gave"));
-    result.checks.push_back(at_most("spin_growth", spin_growth, criteria::kMomentum, "relative"));
+    result.checks.push_back(at_most("spin_growth", spin_growth, criteria::kMomentum,
+                                    "relative, beyond what implicit Euler does"));
     result.checks.push_back(at_most("energy_growth", energy_growth, criteria::kMomentum, "relative"));
     result.checks.push_back(at_most("spin_loss", 1 - now.spin.norm() / start.spin.norm(), criteria::kSpinLoss,
                                     fmt::format("in {:g} s", shot.flight_s), CellStatus::warn,

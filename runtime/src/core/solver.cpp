@@ -242,6 +242,22 @@ void Solver<S>::start_from_recent(const System<S>& system, Solution<S>& solution
     }
 }
 
+/// What is left of the momentum of a body that nothing holds. It is a translation, exactly, for K knows none,
+/// and of a stiff body the preconditioned residual hardly sees it.
+template <class S>
+void Solver<S>::give_momentum(const System<S>& system, Solution<S>& solution) noexcept {
+    const Model& model = system.model;
+    if (model.free_count < model.rest_m.size() || !system.constraints.empty()) return;
+    Vec left = Vec::Zero();
+    for (std::uint32_t i = 0; i < model.free_count; ++i)
+        left += residual_.nodes.get(i);
+    const Vec way = left / (system.inertia * model.free_mass_kg);
+    for (std::uint32_t i = 0; i < model.free_count; ++i) {
+        solution.displacement.nodes.add(i, way);
+        residual_.nodes.add(i, -(system.inertia * model.mass_kg[i]) * way);
+    }
+}
+
 /// @param first of the step: else it takes the place of what the step had before
 template <class S>
 void Solver<S>::remember(const System<S>& system, const Solution<S>& solution, bool first) noexcept {
@@ -307,6 +323,7 @@ void Solver<S>::solve(const System<S>& system, const Preconditioner<S>& precondi
             direction_.tools[k] = preconditioned_.tools[k] + beta * direction_.tools[k];
         rz = next;
     }
+    give_momentum(system, solution);
     find_forces(system, solution);
     remember(system, solution, step_is_new_);
     step_is_new_ = false;

@@ -90,6 +90,7 @@ class Solver {
     [[nodiscard]] bool believes(const System<S>& system, const Preconditioner<S>& preconditioner,
                                 const SolverLimits& limits, const Solution<S>& solution, Real rz,
                                 const Decreases& decreases) const noexcept;
+    void give_momentum(const System<S>& system, Solution<S>& solution) noexcept;
     void remember(const System<S>& system, const Solution<S>& solution, bool first) noexcept;
     [[nodiscard]] Real dot(const System<S>& system, const Unknowns<S>& a,
                            const Unknowns<S>& b) const noexcept;

@@ -234,6 +234,26 @@ TEST(Step, of_a_free_vibrating_body_conserves_momentum) {
     EXPECT_LT((momentum(stepper) - before).norm(), 1e-6 * before.norm());
 }
 
+TEST(Step, of_a_stiff_free_body_conserves_momentum_at_the_default_tolerance) {
+    constexpr double kMomentum = 1e-4;  // ten times what float32 makes of 1000 steps
+    Asset asset = free_block();
+    asset.palette[0].youngs_modulus_pa = 1e9;
+    asset.tools[0].rest_position_m = {0.01, 0, 0.045};
+    asset.tools[0].nodes = free_nodes(asset, [](const Point& p) { return p[2] > 0.03 && p[0] < 0.03; });
+    Stepper stepper(asset, {});
+    for (int i = 0; i < 100; ++i)
+        (void)stepper.step(moved(asset, {0, 0, -0.0003 * i}), 1e-3);
+    (void)stepper.step(moved(asset, {0, 0, 1}), 1e-3);
+    const Vec before = momentum(stepper);
+    ASSERT_GT(before.norm(), 1e-2);  // 0.1 m/s
+    double worst = 0;
+    for (int i = 0; i < 1000; ++i) {
+        EXPECT_EQ(stepper.step(moved(asset, {0, 0, 1}), 1e-3).status, kStepOk);
+        worst = std::max(worst, (momentum(stepper) - before).norm());
+    }
+    EXPECT_LT(worst, kMomentum * before.norm());
+}
+
 TEST(Step, with_a_pose_that_is_not_valid_gives_zero_force_and_keeps_the_state) {
     const Asset asset = pressed_cube(3);
     Stepper stepper(asset, {});
