@@ -151,7 +151,7 @@ Record run_reference(const ContactScene& scene, const Motion& motion, double dt_
     }
     const std::vector<Pose> rest = rest_poses(scene.asset);
     tools::MotionState state = problem.rest();
-    tools::LinearisedAt where;
+    std::vector<Point> where_m;
     tools::ContactLimits limits;
     limits.relative_residual = kResidual;
     Record run;
@@ -162,11 +162,11 @@ Record run_reference(const ContactScene& scene, const Motion& motion, double dt_
             tools[t].pose_before = tools[t].pose;
             tools[t].pose = {poses[t].position_m, poses[t].orientation_wxyz};
         }
-        if (oracle == Oracle::linearised) where.positions_m = point.ahead(state, dt_s);
+        if (oracle == Oracle::linearised) where_m = point.ahead(state, dt_s);
         const tools::ContactSolution solution =
             oracle == Oracle::converged
                 ? problem.step(state, scene.held, tools, dt_s, limits)
-                : problem.linearised_step(state, scene.held, tools, dt_s, where, limits);
+                : problem.linearised_step(state, scene.held, tools, dt_s, where_m, limits);
         point.follow(state, solution.state, dt_s);
         state = solution.state;
         if (solution.let_slide > 0 && run.slid_at == 0) run.slid_at = k;

@@ -159,7 +159,7 @@ ContactSolution ContactProblem::step(const MotionState& from, const PrescribedMo
 
 ContactSolution ContactProblem::linearised_step(const MotionState& from, const PrescribedMotion& held,
                                                 const std::vector<ContactTool>& tools, double dt_s,
-                                                const LinearisedAt& at, const ContactLimits& limits) {
+                                                const std::vector<Point>& at_m, const ContactLimits& limits) {
     check_limits(limits);
     const PosedStep step = impl_->body.step_from(from, dt_s);
     const PrescribedUnknowns unknowns = spread(held, impl_->body.elastic().rest_positions_m());
@@ -167,12 +167,7 @@ ContactSolution ContactProblem::linearised_step(const MotionState& from, const P
     Eigen::VectorXd point = step.ahead_m();
     for (Eigen::Index k = 0; k < point.size(); ++k)
         if (unknowns.is_prescribed[static_cast<std::size_t>(k)]) point[k] = unknowns.target_m[k];
-    if (at.stuck_at_target)
-        for (const Candidate& candidate : set.candidates())
-            if (candidate.touching && candidate.law.friction > 0)
-                point.segment<3>(first_unknown(candidate.node)) = candidate.anchor_m;
-    if (!at.positions_m.empty())
-        point = to_unknowns(at.positions_m, impl_->body.elastic().node_count(), "linearisation point");
+    if (!at_m.empty()) point = to_unknowns(at_m, impl_->body.elastic().node_count(), "linearisation point");
     StepModel model(step.objective, {}, point);
     Eigen::VectorXd positions = point;
     ContactSolution solution = impl_->solve(model, held, unknowns, tools, set, limits, positions);

@@ -116,14 +116,6 @@ struct ContactLimits {
     int max_catch_rounds = 100;   ///< rounds in one of them in which a further node is found to touch
 };
 
-/// Where the linearised step takes rotations and stiffness.
-struct LinearisedAt {
-    /// [mesh nodes] or empty: position + dt * velocity; held nodes at their targets.
-    std::vector<Point> positions_m;
-    /// Without positions: nodes that stuck to a tool before are at their anchor at the tool's pose now.
-    bool stuck_at_target = true;
-};
-
 /// The object of StaticProblem and ImplicitEuler under rigid tools that touch and leave: the exact oracle.
 ///
 /// One step solves the implicit Euler equation with contact forces, to the limits given, together with the
@@ -170,9 +162,11 @@ class ContactProblem {
     /// stuck in the step before, at the linearisation point for one that slid, at the place where it is
     /// caught for a new one). Contact is exact for that problem; a node that is not touched keeps clear of
     /// the true surface.
+    /// @param at_m [mesh nodes] the linearisation point. Empty, as the runtime: where velocities alone lead,
+    ///     touching nodes too, and held nodes at their targets
     [[nodiscard]] ContactSolution linearised_step(const MotionState& from, const PrescribedMotion& held,
                                                   const std::vector<ContactTool>& tools, double dt_s,
-                                                  const LinearisedAt& at = {},
+                                                  const std::vector<Point>& at_m = {},
                                                   const ContactLimits& limits = {});
 
   private:

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "unit/reference/contact_scene.h"
@@ -28,10 +29,21 @@ TEST(LinearisedContactStep, Is_the_converged_one_for_small_moves_from_rest) {
     }
 }
 
+/// Where velocities alone lead.
+std::vector<Point> ahead(const MotionState& from, double dt_s) {
+    std::vector<Point> at = from.positions_m;
+    for (std::size_t n = 0; n < at.size(); ++n)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            at[n][axis] += dt_s * from.velocities_m_per_s[n][axis];
+    return at;
+}
+
 /// One step with every node above a plane bonded, written down densely and separately: rotations by the polar
 /// decomposition at the linearisation point, stiffness R K0 R^T, elastic force 2 mu (F - R) + lambda tr R.
+/// @param target_m where held and bonded nodes must be
 Vector3d dense_step_force(const Scene& scene, const MotionState& from, const std::vector<Point>& at,
-                          const std::vector<bool>& held, const std::vector<bool>& bonded) {
+                          const std::vector<Point>& target_m, const std::vector<bool>& held,
+                          const std::vector<bool>& bonded) {
     const auto size = 3 * static_cast<Eigen::Index>(at.size());
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(size);
@@ -74,15 +86,15 @@ Vector3d dense_step_force(const Scene& scene, const MotionState& from, const std
                 (vec(at[n]) - vec(from.positions_m[n]) - kDtS * vec(from.velocities_m_per_s[n]));
         }
     }
-    Eigen::MatrixXd constrained = matrix;  // `at` has the held and bonded nodes where they must be
+    Eigen::MatrixXd constrained = matrix;
     Eigen::VectorXd rhs = -gradient;
     for (std::size_t n = 0; n < at.size(); ++n) {
         if (!held[n] && !bonded[n]) continue;
         for (Eigen::Index k = 3 * Eigen::Index(n); k < 3 * Eigen::Index(n) + 3; ++k) {
             constrained.row(k).setZero();
             constrained(k, k) = 1;
-            rhs[k] = 0;
         }
+        rhs.segment<3>(3 * Eigen::Index(n)) = vec(target_m[n]) - vec(at[n]);
     }
     const Eigen::VectorXd all = gradient + matrix * constrained.fullPivLu().solve(rhs);
     Vector3d force = Vector3d::Zero();
@@ -101,21 +113,43 @@ TEST(LinearisedContactStep, Solves_the_system_written_down_densely_at_a_turned_a
         held[n] = true;
     for (std::size_t n = 0; n < held.size(); ++n)
         if (!held[n]) state.velocities_m_per_s[n] = {2 * scene.mesh.nodes_m[n][2] / kSideM, 0.3, -1};
-    std::vector<Point> at = state.positions_m;
-    for (std::size_t n = 0; n < at.size(); ++n)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            at[n][axis] += kDtS * state.velocities_m_per_s[n][axis];
+    const std::vector<Point> at = ahead(state, kDtS);
+    std::vector<Point> target = at;
     for (const std::uint32_t n : tool.nodes) {  // all of them touched before, at a place of their own
         touched[n] = true;
         const Point anchor{scene.mesh.nodes_m[n][0] - 0.05 + 0.003, scene.mesh.nodes_m[n][1] - 0.05, 0};
         tool.before.push_back({TouchMode::sticking, anchor});
-        at[n] = {anchor[0] + 0.05, anchor[1] + 0.05, kSideM - 0.02};
+        target[n] = {anchor[0] + 0.05, anchor[1] + 0.05, kSideM - 0.02};
     }
     ContactProblem problem(scene.mesh, scene.material);
     const ContactSolution solution = problem.linearised_step(state, scene.held, {tool}, kDtS);
     ASSERT_EQ(solution.touching, tool.nodes.size());
-    const Vector3d expected = dense_step_force(scene, state, at, held, touched);
+    const Vector3d expected = dense_step_force(scene, state, at, target, held, touched);
     EXPECT_LT((vec(solution.tools[0].force_n) - expected).norm(), kTolerance * expected.norm());
+}
+
+/// What slid before has its tangent plane there too, not where its anchor went with the tool.
+TEST(LinearisedContactStep, Of_a_node_that_slid_takes_its_point_and_its_plane_where_its_velocity_leads) {
+    const Scene scene(4);
+    ContactProblem problem(scene.mesh, scene.material);
+    ContactTool ball = scene.ball(ToolContact::coulomb, 0);
+    MotionState state = problem.rest();
+    constexpr int kDown = 20;
+    for (int k = 1; k <= 2 * kDown; ++k) {  // down, then aside
+        ball.pose.position_m[2] -= k <= kDown ? 0.01 / kDown : 0;
+        ball.pose.position_m[0] += k > kDown ? 0.02 / kDown : 0;
+        const ContactSolution solution = problem.step(state, scene.held, {ball}, kDtS);
+        state = solution.state;
+        ball.before = solution.tools[0].touches;
+    }
+    ASSERT_TRUE(std::any_of(ball.before.begin(), ball.before.end(),
+                            [](const NodeTouch& touch) { return touch.mode == TouchMode::sliding; }));
+    ball.pose.position_m[0] += 0.02 / kDown;
+    const auto force = [&](const std::vector<Point>& at_m) {
+        return vec(problem.linearised_step(state, scene.held, {ball}, kDtS, at_m).tools[0].force_n);
+    };
+    const Vector3d expected = force(ahead(state, kDtS));
+    EXPECT_LT((force({}) - expected).norm(), kTolerance * expected.norm());
 }
 
 TEST(LinearisedContactStep, Fast_deep_press_with_sticking_lets_slide_what_can_neither_be_held_nor_let_go) {
@@ -125,11 +159,17 @@ TEST(LinearisedContactStep, Fast_deep_press_with_sticking_lets_slide_what_can_ne
     MotionState state = problem.rest();
     std::size_t let_slide = 0;
     constexpr int kSteps = 30;
+    constexpr double kStepS = 0.001;
     for (int k = 1; k <= kSteps; ++k) {
         const double share = static_cast<double>(k) / kSteps;
         tool.pose.position_m = {0.05 + 0.003 * share, 0.05 + 0.001 * std::sin(9 * share),
                                 kSideM - 0.07 * std::sin(3.1416 * share)};
-        const ContactSolution solution = problem.linearised_step(state, scene.held, {tool}, 0.001);
+        // Linearised with what stuck at its anchor, for that makes it a hard one.
+        std::vector<Point> at = ahead(state, kStepS);
+        for (std::size_t i = 0; i < tool.before.size(); ++i)
+            for (std::size_t axis = 0; axis < 3 && tool.before[i].mode != TouchMode::apart; ++axis)
+                at[tool.nodes[i]][axis] = tool.pose.position_m[axis] + tool.before[i].anchor_m[axis];
+        const ContactSolution solution = problem.linearised_step(state, scene.held, {tool}, kStepS, at);
         EXPECT_LE(solution.check.strongest_pull_n, solution.check.residual_limit_n);
         EXPECT_LE(solution.check.deepest_m, solution.check.gap_limit_m);
         let_slide += solution.let_slide;
