@@ -11,6 +11,9 @@ namespace {
 
 /// Of the full force: a damper below it is nothing to tell.
 constexpr double kNoticeable = 1e-3;
+/// Of the full force: an object that wants less has given back what it held. In the air a moved proxy's
+/// inertia leaves a few millinewtons.
+constexpr double kUnloaded = 1e-2;
 
 double dot(const Vec3& a, const Vec3& b) noexcept {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -58,9 +61,17 @@ Vec3 PassivityController::damp(const Vec3& force, double wish, double hold_s,
     return {force[0] - damping * v[0], force[1] - damping * v[1], force[2] - damping * v[2]};
 }
 
+double PassivityController::share(double wish) noexcept {
+    if (wish <= kUnloaded * full_force_) recovering_ = false;
+    if (!recovering_ || !(limits_.max_damping > 0)) return 1;
+    if (energy_j_ >= 0) return 1;
+    return std::max(kLeast, 1 + energy_j_ / (2 * limits_.free_energy_j));  // none free: minus infinity
+}
+
 void PassivityController::reset() noexcept {
     energy_j_ = 0;
     filled_ = 0;
+    recovering_ = true;
 }
 
 }  // namespace knead

@@ -155,8 +155,10 @@ double SafetyChain::watchdog_share(const SafetyInput& input, std::uint32_t& stat
     if (model < 1) status |= kHapticStaleModel;
     const double share = std::min(device, model);
     if (share > share_) {
-        for (Port* port : {&force_, &torque_})
+        for (Port* port : {&force_, &torque_}) {
+            port->passivity.reset();
             port->ramp.rearm(norm(port->written));
+        }
     }
     share_ = share;
     return share;
@@ -167,9 +169,14 @@ Vec3 SafetyChain::run(Port& port, const Vec3& wish, const SafetyInput& input, do
     port.written = {};
     if (!(port.limit > 0)) return port.written;
     bool shortened = false;
-    const Vec3 felt = limit_norm(wish, port.limit, &shortened);
+    Vec3 felt = limit_norm(wish, port.limit, &shortened);
     if (shortened) status |= kHapticSaturated;
-    const Vec3 damped = port.passivity.damp(felt, norm(wish), input.expected_dt_s, status);
+    const double wished = norm(wish);
+    const double given = port.passivity.share(wished);
+    if (given < 1) status |= kHapticPassivity;
+    for (double& component : felt)
+        component *= given;
+    const Vec3 damped = port.passivity.damp(felt, wished, input.expected_dt_s, status);
     const double step = step_s(input);
     const Vec3 slewed = port.slew.apply(damped, step, status);
     const Vec3 limited = limit_norm(slewed, port.limit, &shortened);

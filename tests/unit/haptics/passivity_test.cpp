@@ -128,6 +128,40 @@ TEST(PassivityController, No_force_and_forgets_stock_keeps_debt_makes_no_force) 
     EXPECT_EQ(status, kHapticOk);
 }
 
+TEST(PassivityController, Debt_after_a_restart_and_fades_the_force_until_it_is_paid) {
+    PassivityController controller({}, kFull_n);
+    EXPECT_EQ(controller.share(1), 1);                     // a hand at rest owes nothing
+    controller.observe({1, 0, 0}, {2e-4, 0, 0}, kPeriod);  // 0.2 mJ out: half of twice the free energy
+    EXPECT_NEAR(controller.share(1), 0.5, 1e-12);
+    controller.observe({1, 0, 0}, {1e-2, 0, 0}, kPeriod);
+    EXPECT_EQ(controller.share(1), PassivityController::kLeast);
+    controller.observe({1, 0, 0}, {-1.02e-2, 0, 0}, kPeriod);  // and in again
+    EXPECT_NEAR(controller.share(1), 1, 1e-12);
+}
+
+TEST(PassivityController, Object_without_force_and_the_next_contact_is_whole) {
+    PassivityController controller({}, kFull_n);
+    controller.observe({1, 0, 0}, {4e-4, 0, 0}, kPeriod);
+    EXPECT_LT(controller.share(1), 1);
+    EXPECT_EQ(controller.share(0), 1);
+    EXPECT_EQ(controller.share(1), 1);
+    controller.reset();
+    controller.observe({1, 0, 0}, {4e-4, 0, 0}, kPeriod);
+    EXPECT_LT(controller.share(1), 1);
+}
+
+TEST(PassivityController, Without_free_energy_or_only_observing_and_the_share_is_the_least_or_whole) {
+    PassivityLimits limits;
+    limits.free_energy_j = 0;
+    PassivityController strict(limits, kFull_n);
+    EXPECT_EQ(strict.share(1), 1);
+    strict.observe({1, 0, 0}, {1e-9, 0, 0}, kPeriod);
+    EXPECT_EQ(strict.share(1), PassivityController::kLeast);
+    PassivityController observer(observing(), kFull_n);
+    observer.observe({1, 0, 0}, {1e-2, 0, 0}, kPeriod);
+    EXPECT_EQ(observer.share(1), 1);
+}
+
 TEST(PassivityController, Slow_motion_through_an_encoder_and_is_damped_steadily) {
     PassivityLimits limits;
     limits.max_damping = 1e-3;  // too weak to change anything: only the velocity counts here

@@ -312,7 +312,8 @@ TEST(SafetyChain, Damper_on_top_of_the_full_force_and_the_limit_has_the_last_wor
     SafetyConfig config;
     config.slew_n_per_ms = 100;
     SafetyInput input = wish(10);
-    SafetyChain chain = engaged(input, config);
+    SafetyChain chain = engaged(wish(0), config);  // in a contact after a restart it would fade instead
+    (void)chain.apply(input);
     input.pose.position_m[2] += 4e-3;  // pushed out: 13 mJ from nowhere
     (void)chain.apply(input);
     EXPECT_NEAR(chain.absorbed_j(), -3.3 * 4e-3, kRounding);
@@ -336,6 +337,25 @@ TEST(SafetyChain, Restart_and_forgets_debt_and_motion) {
         input.pose.position_m[0] += 1e-3;
         EXPECT_EQ(chain.apply(input).status & kHapticPassivity, 0U) << tick;
     }
+}
+
+TEST(SafetyChain, Force_after_stale_data_and_fades_when_it_gives_what_nobody_paid) {
+    SafetyInput input = wish(2);
+    SafetyChain chain = engaged(wish(0));
+    for (int tick = 0; tick < 10; ++tick)
+        (void)chain.apply(input);
+    input.model_age_s = 0.04;
+    EXPECT_EQ(chain.apply(input).status, kHapticStaleModel);
+    input.model_age_s = 0;
+    const double left_n = chain.apply(input).force_n[2];
+    EXPECT_GT(left_n, 0);
+    input.pose.position_m[2] += 1e-3;  // more than twice the free energy
+    SafeForce safe;
+    for (int tick = 0; tick < 5; ++tick) {
+        safe = chain.apply(input);
+        EXPECT_TRUE(safe.status & kHapticPassivity);
+    }
+    EXPECT_LE(safe.force_n[2], 2 * PassivityController::kLeast + kRounding);
 }
 
 TEST(SafetyConfig, Number_out_of_range_and_is_refused_by_name) {

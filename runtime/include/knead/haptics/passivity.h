@@ -33,6 +33,12 @@ struct PassivityLimits {
 /// without a force it is gone. Debt stays, up to max_debt_j: what cannot be taken out of a hand at rest is
 /// taken out later. Where there is no force, none is made.
 ///
+/// A damper is too weak for a restart in contact: the hand sank in while there was no force, and what brings
+/// the force back pushes it out with energy that nobody put in. From reset() until the object wants no force
+/// any more, the force therefore fades with the debt: whole as long as there is none, a last kLeast of it
+/// from twice free_energy_j on. To a hand that holds still nothing is given and nothing fades; one that
+/// pushes in pays, and has the whole force again.
+///
 /// Never allocates or throws. Source: Hannaford & Ryu, IEEE Trans. Robotics and Automation 18 (2002) 1-10;
 /// exact count for a held force: Ryu, Kim, Hannaford, IEEE Trans. Robotics 20 (2004) 772-776.
 class KNEAD_HAPTICS_API PassivityController {
@@ -52,7 +58,12 @@ class KNEAD_HAPTICS_API PassivityController {
     /// @return force with as much damping as needed
     [[nodiscard]] Vec3 damp(const Vec3& force, double wish, double hold_s, std::uint32_t& status) noexcept;
 
-    /// Forgets stock, debt and motion; absorbed_j() goes on.
+    /// What of the force may be felt after reset(). @param wish as in damp()  @return kLeast to 1; 1 in any
+    /// contact that began after it, and always with max_damping 0
+    [[nodiscard]] double share(double wish) noexcept;
+
+    /// The force was cut and will come back: forgets stock, debt and motion; absorbed_j() goes on. A large
+    /// old debt would keep the force away from a hand that cannot pay it.
     void reset() noexcept;
 
     /// Stock if positive, debt if negative, J.
@@ -60,6 +71,9 @@ class KNEAD_HAPTICS_API PassivityController {
     /// All that went from the hand into the object, less all that came back, since construction, J: nothing
     /// forgotten.
     [[nodiscard]] double absorbed_j() const noexcept { return absorbed_j_; }
+
+    /// Where all was given that may be: something to push against, else a hand that pushes in could not pay.
+    static constexpr double kLeast = 0.02;
 
   private:
     static constexpr std::size_t kWindow = 10;
@@ -73,6 +87,7 @@ class KNEAD_HAPTICS_API PassivityController {
     double full_force_;
     double energy_j_ = 0;
     double absorbed_j_ = 0;
+    bool recovering_ = true;                ///< since reset() the object never was without force
     std::array<Sample, kWindow> window_{};  ///< a ring, newest at newest_
     std::size_t newest_ = 0;
     std::size_t filled_ = 0;  ///< samples in the ring

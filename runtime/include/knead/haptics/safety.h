@@ -57,7 +57,8 @@ struct SafeForce {
 ///   0. Unknown is zero, and the ramp starts again: force not finite, bad pose, failed step, jump of pose or
 ///      time.
 ///   1. The wish is shortened to the limit, so that all that follows works on what can be felt.
-///   2. Passivity observer and controller (PassivityController), one each for force and torque.
+///   2. Passivity observer and controller (PassivityController), one each for force and torque; before it, in
+///      a contact that goes on after the ramp began, its share of the wish.
 ///   3. Slew limit (SlewLimit): at most the allowed change of one expected period, also after a late one.
 ///   4. Norm limit (limit_norm): the last word on the length. Nothing after it lengthens.
 ///   5. Ramp (EngageRamp): after engaging, after step 0 and after step 6.
