@@ -15,13 +15,6 @@ namespace {
 const std::map<std::string, std::string>& known_faults() {
     static const std::map<std::string, std::string> faults{
         {"fast/bonded plate teleported by -1000 %", "does not come to rest"},
-        {"input/bonded plate at 1e+10 m for ten steps", "displacements beyond float32"},
-        {"contrast/islands 1e+06, nu 0.49, dt 10 ms", "one linearisation"},  // shortened only
-        {"contrast/islands 1e+09, nu 0.49, dt 10 ms", "one linearisation"},
-        {"mesh/slivers flat at 1 degrees, nu 0.3, dt 10 ms", "one linearisation"},
-        {"mesh/slivers thin at 1 degrees, nu 0.49, dt 10 ms", "one linearisation"},
-        {"mesh/slivers flat at 0.5 degrees, nu 0.3, dt 10 ms", "one linearisation"},
-        {"mesh/slivers thin at 0.5 degrees, nu 0.49, dt 10 ms", "one linearisation"},
     };
     return faults;
 }

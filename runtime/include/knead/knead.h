@@ -76,7 +76,8 @@ typedef struct knead_config {
     double coupling_stiffness_n_per_m; /* 0: no coupling, the tool is at the given pose */
     double coupling_damping_n_s_per_m;
     double tool_mass_kg;
-    int32_t with_local_model; /* not 0: knead_simulation_local_model() may be asked */
+    int32_t with_local_model;   /* not 0: knead_simulation_local_model() may be asked */
+    int32_t max_linearisations; /* of one step; 0: as the matter needs */
 } knead_config;
 
 /* Position and orientation of a tool in the scene. */

@@ -52,6 +52,7 @@ knead::SimulationConfig to_cpp(const knead_config& config) {
     result.force_tolerance = config.force_tolerance;
     result.max_solver_iterations = config.max_solver_iterations;
     result.max_contact_passes = config.max_contact_passes;
+    result.max_linearisations = config.max_linearisations;
     result.with_torque = config.with_torque != 0;
     result.coupling_stiffness_n_per_m = config.coupling_stiffness_n_per_m;
     result.coupling_damping_n_s_per_m = config.coupling_damping_n_s_per_m;
@@ -140,6 +141,7 @@ void knead_config_init(knead_config* config) noexcept {
     config->coupling_damping_n_s_per_m = defaults.coupling_damping_n_s_per_m;
     config->tool_mass_kg = defaults.tool_mass_kg;
     config->with_local_model = defaults.with_local_model ? 1 : 0;
+    config->max_linearisations = defaults.max_linearisations;
 }
 
 void knead_step_result_init(knead_step_result* result) noexcept {

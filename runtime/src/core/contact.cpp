@@ -84,6 +84,11 @@ void Contact::begin_step(const std::vector<Frame>& tools, const NodeReader& pred
     list_constraints(predicted);
 }
 
+void Contact::predict_again(const std::vector<Frame>& tools, const NodeReader& predicted) noexcept {
+    std::copy(tools.begin(), tools.end(), predicted_.begin());
+    list_constraints(predicted);
+}
+
 Frame Contact::moved(std::size_t tool, const Attempt& attempt) const noexcept {
     return {predicted_[tool].position + attempt.tool_displacement_m[tool], predicted_[tool].rotation};
 }

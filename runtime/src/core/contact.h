@@ -52,6 +52,9 @@ class Contact {
     /// The touched sets of the step before. @param tools [tools] predicted
     void begin_step(const std::vector<Frame>& tools, const NodeReader& predicted, Real dt_s) noexcept;
 
+    /// Another prediction of the same step: nothing changes but what constraints are relative to.
+    void predict_again(const std::vector<Frame>& tools, const NodeReader& predicted) noexcept;
+
     /// What the tools feel in a solve with constraints(): load(). Part of revise(); for a solve that failed.
     void measure(const Attempt& attempt) noexcept;
 

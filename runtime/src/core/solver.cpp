@@ -156,7 +156,9 @@ void Solver<S>::start(const System<S>& system, const NodeField<S>& load, Solutio
     for (std::size_t k = 0; k < system.tools.size(); ++k) {
         const ToolUnknown& tool = system.tools[k];
         residual_.tools[k].setZero();
-        if (tool.moves) residual_.tools[k] = -dt2 * tool.force_n - system.tool_diagonal_kg(k) * d.tools[k];
+        if (tool.moves)
+            residual_.tools[k] =
+                -dt2 * (tool.force_n + tool.inertia_n) - system.tool_diagonal_kg(k) * d.tools[k];
     }
     keep_rows(system, residual_.nodes, solution.row_n);
     for (std::size_t k = 0; k < system.constraints.size(); ++k) {

@@ -7,6 +7,7 @@
 #include "core/contact.h"
 #include "core/converted.h"
 #include "core/denormals.h"
+#include "core/linearisations.h"
 #include "core/solver.h"
 #include "core/tool_impedance.h"
 
@@ -17,6 +18,9 @@ namespace {
 constexpr double kStepSlack = 1e-9;
 /// How far the norm of a unit quaternion may be from one.
 constexpr double kUnitTolerance = 1e-3;
+/// How far a tool may carry the nodes bonded to it, in sizes of the object. Beyond, displacements in float32
+/// have no room left for the object's shape.
+constexpr Real kFarthestCarried = 1e4;
 /// Root mean square of the velocity error that a step may make: in an object without great contrasts, and in
 /// one where soft matter between stiff would drift unseen by the force.
 constexpr double kVelocityTolerance_m_per_s = 3e-4;
@@ -109,10 +113,13 @@ class TypedStepper final : public Stepper {
     };
 
     void make_room_for_views(const std::vector<ToolSet>& tools);
+    [[nodiscard]] bool carries_too_far(std::size_t k) const noexcept;
     void predict(const Frame* hands, Real dt) noexcept;
     void couple(Tool& tool, ToolUnknown& unknown, const Frame& hand, Real dt) const noexcept;
     void predict_bonded(std::size_t k) noexcept;
     void linearise(const System<V>& system) noexcept;
+    [[nodiscard]] bool went_far() const noexcept;
+    void predict_again(const System<V>& system) noexcept;
     std::uint32_t solve_with_contact(const System<V>& system) noexcept;
     [[nodiscard]] bool settled(const SolverLimits& limits, std::uint32_t& status) noexcept;
     [[nodiscard]] Attempt attempt(const SolverLimits& limits, bool early) const noexcept;
@@ -126,6 +133,7 @@ class TypedStepper final : public Stepper {
     StepResult refuse(std::uint32_t status) noexcept;
     [[nodiscard]] StepResult result(std::uint32_t status) const noexcept;
     [[nodiscard]] Real travel_m() const noexcept;
+    [[nodiscard]] const NodeField<S>& ahead() const noexcept { return again_ ? ahead_ : beyond_; }
     [[nodiscard]] bool coupled() const noexcept { return config_.coupling_stiffness_n_per_m > 0; }
 
     const SimulationConfig config_;
@@ -140,6 +148,7 @@ class TypedStepper final : public Stepper {
     Solver<V> solver_;
     const bool trusts_preconditioner_;
     const bool unilateral_;  ///< some tool is
+    const Linearisations linearisations_;
 
     // State: what a step starts from.
     NodeField<S> displacements_, velocities_;
@@ -147,8 +156,7 @@ class TypedStepper final : public Stepper {
     /// the next one will, while forces change smoothly.
     NodeField<S> beyond_;
     Real beyond_dt_s_ = 1;
-    Real smoothness_ = 0;    ///< how well that was true of the last step, 0 to 1
-    Real beyond_share_ = 0;  ///< of beyond_ that is predicted
+    Real smoothness_ = 0;  ///< how well that was true of the last step, 0 to 1
     /// What the last solve left of its right-hand side, kg m: an impulse that was not given. It is given in
     /// the next step, so that small errors do not add up to a drift.
     NodeField<S> owed_;
@@ -157,6 +165,11 @@ class TypedStepper final : public Stepper {
 
     // Of the step under way.
     NodeField<S> predicted_, load_, scratch_;
+    /// predicted_ is beyond where velocities alone would carry the nodes by ahead_share_ of beyond_; in a
+    /// step that was linearised again, of ahead_.
+    NodeField<S> ahead_;
+    Real ahead_share_ = 0;
+    bool again_ = false;
     Converted<V, S> for_solve_;
     Converted<S, V> from_solve_;
     std::vector<Frame> hands_, frames_;
@@ -191,11 +204,12 @@ TypedStepper<S, V>::TypedStepper(const Asset& asset, const SimulationConfig& con
                              numerics.max_poissons_ratio <= kTrustedPoissonsRatio),
       unilateral_(std::any_of(config.tools.begin(), config.tools.end(),
                               [&](std::size_t k) { return asset.tools[k].contact != ToolContact::bonded; })),
+      linearisations_(model_, numerics, config.max_linearisations),
       for_solve_(model_.rest_m.size()),
       from_solve_(model_.rest_m.size()) {
     const std::size_t nodes = model_.rest_m.size(), count = config.tools.size();
     for (NodeField<S>* field :
-         {&displacements_, &velocities_, &beyond_, &owed_, &predicted_, &load_, &scratch_}) {
+         {&displacements_, &velocities_, &beyond_, &owed_, &predicted_, &load_, &scratch_, &ahead_}) {
         *field = NodeField<S>(nodes);
     }
     solution_.displacement.nodes = NodeField<V>(nodes);
@@ -260,21 +274,28 @@ StepResult TypedStepper<S, V>::step(const Pose* poses, double dt_s) noexcept {
     const NoDenormals no_denormals;
     if (!valid_step(dt_s)) return refuse(kStepBadInput);
     for (std::size_t k = 0; k < hands_.size(); ++k) {
-        if (!to_frame(poses[k], hands_[k])) return refuse(kStepBadInput);
+        if (!to_frame(poses[k], hands_[k]) || carries_too_far(k)) return refuse(kStepBadInput);
     }
     const System<V> system = this->system(dt_s);
+    iterations_ = 0;
 
     // 1. Predict where inertia carries everything.
     predict(hands_.data(), dt_s);
     // 2. One pass over the tetrahedra there: rotations, forces, right-hand side.
     linearise(system);
     // 3. Conjugate gradients, again for as long as the set of touched nodes changes.
-    const std::uint32_t status = solve_with_contact(system);
+    std::uint32_t status = solve_with_contact(system);
+    // 4. Where matter asks for it, 2 and 3 again where the solution came.
+    for (int more = linearisations_.most(dt_s) - 1; more > 0 && status == kStepOk && went_far(); --more) {
+        predict_again(system);
+        linearise(system);
+        status = solve_with_contact(system);
+    }
     if (!finite()) {
         contact_.abandon_step();
         return refuse(status | kStepNotFinite);
     }
-    // 4. The reaction stands in the rows of the held nodes; take over the new state.
+    // 5. The reaction stands in the rows of the held nodes; take over the new state.
     accept(hands_.data(), dt_s, (status & kStepNotConverged) != 0);
     find_results(dt_s);
     step_dt_s_ = dt_s;
@@ -295,14 +316,21 @@ System<V> TypedStepper<S, V>::system(Real dt) noexcept {
 }
 
 template <class S, class V>
+bool TypedStepper<S, V>::carries_too_far(std::size_t k) const noexcept {
+    const Real way_m = (hands_[k].position - contact_.rest_frame(k).position).norm();
+    return !tools_[k].anchors.empty() && way_m > kFarthestCarried * model_.size_m;
+}
+
+template <class S, class V>
 void TypedStepper<S, V>::predict(const Frame* hands, Real dt) noexcept {
     const std::size_t free = run_of(model_.free_count);
     const Real dt_ratio = dt / beyond_dt_s_;
     const bool steady = dt_ratio <= kSteadyDt && dt_ratio >= 1 / kSteadyDt;
-    beyond_share_ = steady ? smoothness_ * dt_ratio * dt_ratio : 0;
+    ahead_share_ = steady ? smoothness_ * dt_ratio * dt_ratio : 0;
+    again_ = false;
     fields_.add_scaled(free, displacements_.data(), static_cast<S>(dt), velocities_.data(),
                        predicted_.data());
-    fields_.add_scaled(free, predicted_.data(), static_cast<S>(beyond_share_), beyond_.data(),
+    fields_.add_scaled(free, predicted_.data(), static_cast<S>(ahead_share_), beyond_.data(),
                        predicted_.data());
     for (std::size_t k = 0; k < tools_.size(); ++k) {
         unknowns_[k] = {};
@@ -347,8 +375,8 @@ void TypedStepper<S, V>::linearise(const System<V>& system) noexcept {
     elements_.linearise(static_cast<S>(dt2), predicted_, load_);
     const std::size_t free = run_of(model_.free_count);
     fields_.add_scaled(free, load_.data(), static_cast<S>(dt / owed_dt_s_), owed_.data(), load_.data());
-    fields_.multiply(free, from_solve_.of(masses_.kg).data(), static_cast<S>(-system.inertia * beyond_share_),
-                     beyond_.data(), scratch_.data());
+    fields_.multiply(free, from_solve_.of(masses_.kg).data(), static_cast<S>(-system.inertia * ahead_share_),
+                     ahead().data(), scratch_.data());
     fields_.add_scaled(free, load_.data(), S(1), scratch_.data(), load_.data());
     const Vec& gravity = model_.gravity_m_per_s2;
     if (!gravity.isZero(0)) {
@@ -371,6 +399,41 @@ void TypedStepper<S, V>::linearise(const System<V>& system) noexcept {
     }
 }
 
+/// Whether the solution is so far from where it was linearised that it may be worth another linearisation.
+template <class S, class V>
+bool TypedStepper<S, V>::went_far() const noexcept {
+    const NodeField<V>& d = solution_.displacement.nodes;
+    const Real squared = static_cast<Real>(solve_fields_.dot(run_of(model_.free_count), d.data(), d.data()));
+    const Real near = kNearlyLinear * model_.mean_edge_m;
+    return squared > near * near * model_.free_count;
+}
+
+/// The solution becomes the prediction.
+template <class S, class V>
+void TypedStepper<S, V>::predict_again(const System<V>& system) noexcept {
+    const std::size_t free = run_of(model_.free_count);
+    const NodeField<S>& d = from_solve_.of(solution_.displacement.nodes);
+    fields_.add_scaled(free, d.data(), static_cast<S>(ahead_share_), ahead().data(), ahead_.data());
+    again_ = true;
+    ahead_share_ = 1;
+    fields_.add_scaled(free, predicted_.data(), S(1), d.data(), predicted_.data());
+    for (std::size_t k = 0; k < tools_.size(); ++k) {
+        Tool& tool = tools_[k];
+        ToolUnknown& unknown = unknowns_[k];
+        const Vec further = solution_.displacement.tools[k];
+        tool.frame.position += further;
+        frames_[k] = tool.frame;
+        unknown.force_n += unknown.rate_n_per_m * further;
+        unknown.inertia_n += (unknown.mass_kg / (system.dt_s * system.dt_s)) * further;
+        for (std::size_t i = 0; i < tool.anchors.size(); ++i) {
+            tool.next_m[i] += further;
+            predicted_.set(model_.bonded[k].begin + i, tool.next_m[i]);
+        }
+    }
+    contact_.predict_again(frames_, NodeReader(model_.rest_m, predicted_));
+    solver_.reset();
+}
+
 template <class S, class V>
 std::uint32_t TypedStepper<S, V>::solve_with_contact(const System<V>& system) noexcept {
     const bool close = preconditioner_.is_close(system.dt_s);
@@ -384,7 +447,6 @@ std::uint32_t TypedStepper<S, V>::solve_with_contact(const System<V>& system) no
     solution_.displacement.nodes.fill_zero();
     solution_.from_zero = true;
     std::fill(solution_.displacement.tools.begin(), solution_.displacement.tools.end(), Vec::Zero());
-    iterations_ = 0;
     preconditioner_.begin_step(system);
     const NodeField<V>& load = for_solve_.of(load_);
     EarlyLook look(*this, limits);
@@ -496,7 +558,7 @@ void TypedStepper<S, V>::accept(const Frame* hands, Real dt, bool failed) noexce
 template <class S, class V>
 void TypedStepper<S, V>::go_beyond(const NodeField<S>& d, Real dt) noexcept {
     const std::size_t free = run_of(model_.free_count);
-    fields_.add_scaled(free, d.data(), static_cast<S>(beyond_share_), beyond_.data(), scratch_.data());
+    fields_.add_scaled(free, d.data(), static_cast<S>(ahead_share_), ahead().data(), scratch_.data());
     const Real ratio = (dt / beyond_dt_s_) * (dt / beyond_dt_s_);
     const Real expected = ratio * static_cast<Real>(fields_.dot(free, beyond_.data(), beyond_.data()));
     const Real agreed = static_cast<Real>(fields_.dot(free, beyond_.data(), scratch_.data()));

@@ -11,8 +11,9 @@ namespace knead::core {
 struct ToolUnknown {
     bool moves = false;  ///< false: the tool is where the hand is, t = 0
     Real mass_kg = 0;
-    Vec force_n = Vec::Zero();  ///< of the coupling on the hand at t = 0
-    Real rate_n_per_m = 0;      ///< how that force grows with t: stiffness + damping / dt
+    Vec force_n = Vec::Zero();    ///< of the coupling on the hand at t = 0
+    Vec inertia_n = Vec::Zero();  ///< what the tool's mass answers at t = 0: it was predicted where it is
+    Real rate_n_per_m = 0;        ///< how that force grows with t: stiffness + damping / dt
 };
 
 /// A displacement of every node and of the tools beyond the prediction; or what belongs to one (residuals,

@@ -108,8 +108,8 @@ void visit_all(HapticConfig& config, Visit& visit) {
 template <class Visit>
 void visit_all(SimulationConfig& config, Visit& visit) {
     const std::string name = "simulation";
-    auto& [tools, expected_dt_s, arithmetic, force_tolerance, solver_iterations, contact_passes, with_torque,
-           with_local_model, stiffness, damping, mass] = config;
+    auto& [tools, expected_dt_s, arithmetic, force_tolerance, solver_iterations, contact_passes,
+           linearisations, with_torque, with_local_model, stiffness, damping, mass] = config;
     tools.resize(1);
     visit(name + ".tool", tools[0]);
     visit(name + ".expected_dt_s", expected_dt_s);
@@ -117,6 +117,7 @@ void visit_all(SimulationConfig& config, Visit& visit) {
     visit(name + ".force_tolerance", force_tolerance);
     visit(name + ".max_solver_iterations", solver_iterations);
     visit(name + ".max_contact_passes", contact_passes);
+    visit(name + ".max_linearisations", linearisations);
     visit(name + ".with_torque", with_torque);
     visit(name + ".with_local_model", with_local_model);
     visit(name + ".coupling_stiffness_n_per_m", stiffness);

@@ -60,6 +60,9 @@ Status check_config(const SimulationConfig& config, const Asset& asset) {
     if (config.max_contact_passes <= 0) {
         return out_of_range("max_contact_passes", config.max_contact_passes, "above 0");
     }
+    if (config.max_linearisations < 0) {
+        return out_of_range("max_linearisations", config.max_linearisations, "at least 0");
+    }
     if (!finite_and_not_negative(config.coupling_stiffness_n_per_m)) {
         return out_of_range("coupling_stiffness_n_per_m", config.coupling_stiffness_n_per_m,
                             "finite and not negative");

@@ -244,6 +244,7 @@ TEST(Settings_of_a_session, Give_back_both_configurations) {
     physics.tools = {2};
     physics.arithmetic = Arithmetic::float64;
     physics.max_contact_passes = 17;
+    physics.max_linearisations = 3;
     auto recorder = SessionRecorder::create(haptic, physics, std::string(64, '0'), {1, 0});
     ASSERT_TRUE(recorder.ok());
     const SessionLog log = recorder.value().log();
@@ -261,6 +262,7 @@ TEST(Settings_of_a_session, Give_back_both_configurations) {
     EXPECT_EQ(found_physics.value().tools, std::vector<std::size_t>{2});
     EXPECT_EQ(found_physics.value().arithmetic, Arithmetic::float64);
     EXPECT_EQ(found_physics.value().max_contact_passes, 17);
+    EXPECT_EQ(found_physics.value().max_linearisations, 3);
     EXPECT_EQ(found_physics.value().expected_dt_s, physics.expected_dt_s);
 }
 

@@ -210,6 +210,7 @@ struct Subject {
         config.coupling_stiffness_n_per_m = c.coupling_n_per_m;
         config.coupling_damping_n_s_per_m = c.coupling_n_per_m > 0 ? 0.5 : 0;
         config.max_solver_iterations = c.max_iterations;
+        config.max_linearisations = c.arithmetic == Arithmetic::mixed ? 3 : 0;
         config.with_torque = true;
         Numerics numerics = choose_numerics(asset);
         numerics.arithmetic = c.arithmetic == Arithmetic::float64 ? Precision::float64

@@ -68,6 +68,7 @@ TEST(Simulation, with_a_config_out_of_range_is_refused_and_told_which) {
     refused("force_tolerance", [](auto& c) { c.force_tolerance = 0.2; });
     refused("max_solver_iterations", [](auto& c) { c.max_solver_iterations = 0; });
     refused("max_contact_passes", [](auto& c) { c.max_contact_passes = -1; });
+    refused("max_linearisations", [](auto& c) { c.max_linearisations = -1; });
     refused("coupling_stiffness_n_per_m", [](auto& c) { c.coupling_stiffness_n_per_m = -1; });
     refused("coupling_stiffness_n_per_m",
             [](auto& c) { c.coupling_stiffness_n_per_m = std::numeric_limits<double>::infinity(); });

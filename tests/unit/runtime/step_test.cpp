@@ -292,16 +292,32 @@ TEST(Step, with_a_dt_out_of_range_is_refused) {
 
 TEST(Step, that_would_leave_the_finite_numbers_gives_zero_force_and_keeps_the_state) {
     const Asset asset = pressed_cube(2);
-    Stepper stepper(asset, {});
+    SimulationConfig config;
+    config.coupling_stiffness_n_per_m = 1e4;
+    config.coupling_damping_n_s_per_m = 1e306;  // no sane number, but a number
+    Stepper stepper(asset, config);
     (void)settle(stepper, asset, {0, 0, -0.01}, 20, 10);
     const Field before = stepper.positions_m();
-    const StepResult result = stepper.step(moved(asset, {1e306, 0, 0}), 1e-3);
+    const StepResult result = stepper.step(moved(asset, {100, 0, 0}), 1e-3);
     EXPECT_TRUE(result.status & kStepNotFinite) << result.status;
     EXPECT_EQ(result.force_n, Vec3{});
     EXPECT_EQ(largest_distance(stepper.positions_m(), before), 0);
     const StepResult next = stepper.step(moved(asset, {0, 0, -0.01}), 1e-3);
     EXPECT_EQ(next.status, kStepOk);
     EXPECT_GT(next.force_n[2], 1);
+}
+
+TEST(Step, with_a_bonded_tool_farther_away_than_the_numbers_reach_is_refused) {
+    const Asset asset = pressed_cube(2);
+    const double size_m = 0.1 * std::sqrt(3.0);
+    Stepper stepper(asset, {});
+    for (const double way_m : {1.01e4 * size_m, 1e10, 1e306})
+        EXPECT_EQ(stepper.step(moved(asset, {0, -way_m, 0}), 1e-3).status, kStepBadInput) << way_m;
+    EXPECT_EQ(stepper.step(moved(asset, {0, -0.99e4 * size_m, 0}), 1e-3).status, kStepOk);
+    // What carries nothing may be anywhere.
+    const Asset touched = cube_asset(2, ToolShape::plate, ToolContact::frictionless);
+    Stepper far(touched, {});
+    EXPECT_EQ(far.step(moved(touched, {0, 0, 1e10}), 1e-3).status, kStepOk);
 }
 
 TEST(Step, at_its_iteration_cap_says_so_and_stops_the_free_nodes) {

@@ -28,7 +28,12 @@ struct SimulationConfig {
     double force_tolerance = 3e-4;    ///< relative bound of the force error of one step, (0, 0.1]
     int max_solver_iterations = 500;  ///< of the conjugate gradients, per solve, > 0
     int max_contact_passes = 32;      ///< solves, with a changed touched set each, tried in one step, > 0
-    bool with_torque = false;         ///< also find the torque on each tool
+    /// Times that one step may be linearised, each of them a pass over the tetrahedra and a solve; >= 0.
+    /// 0: once, or up to 8 times in steps above 4 ms of matter that needs it: stiff islands (1e5) in nearly
+    /// incompressible matter, flat tetrahedra (docs/simulation.md). More are tried only while the solution
+    /// still moves.
+    int max_linearisations = 0;
+    bool with_torque = false;       ///< also find the torque on each tool
     bool with_local_model = false;  ///< make room for Simulation::local_model(): 12 vectors of all nodes for
                                     ///< each tool, 24 with torque
 

@@ -12,7 +12,8 @@ enum StepStatus : std::uint32_t {
     kStepOk = 0,
     kStepNotConverged = 1u << 0,  ///< the solver stopped at its cap; the force is its best estimate
     kStepNotFinite = 1u << 1,     ///< the state would not be finite: force zero, last good state kept
-    kStepBadInput = 1u << 2,      ///< pose or dt not finite or out of range: force zero, state kept
+    kStepBadInput = 1u << 2,      ///< pose or dt not finite or out of range, or a bonded tool farther from
+                                  ///< its rest pose than 1e4 times the object: force zero, state kept
     kStepContactCap = 1u << 3,    ///< the set of touched nodes had not settled at its cap
 };
 
