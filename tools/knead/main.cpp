@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <system_error>
 
 #include "common/progress.h"
@@ -41,16 +43,10 @@ BuildListener listener_for(const ToolContext& context, Progress& progress, std::
 }
 
 void copy_asset(const PlannedAsset& asset, const std::filesystem::path& target) {
-    auto temporary = target;
-    temporary += ".part";
-    std::error_code error;
-    std::filesystem::copy_file(asset.file, temporary, std::filesystem::copy_options::overwrite_existing,
-                               error);
-    if (!error) std::filesystem::rename(temporary, target, error);
-    if (!error) return;
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw ToolError(ExitCode::cannot_write, target.string() + ": " + error.message());
+    std::ifstream file(asset.file, std::ios::binary);
+    std::string bytes(std::istreambuf_iterator<char>(file), {});
+    if (!file) throw ToolError(ExitCode::bad_input, asset.file.string() + ": cannot be read");
+    value_or_throw(write_text_file(target, bytes));  // flushed, then renamed: the old asset or the new one
 }
 
 /// Looks at what was made and says what its maker should know. What the tools have said is not said again.

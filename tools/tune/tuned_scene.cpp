@@ -38,14 +38,18 @@ std::string to_cache(const LoadAnswer& answer) {
 
 std::optional<LoadAnswer> answer_from_cache(const std::string& text) {
     const auto json = nlohmann::json::parse(text, nullptr, false);
-    if (!json.is_object() || !json.contains("displacement_error")) return std::nullopt;
-    LoadAnswer answer;
-    answer.converged = json.at("converged").get<bool>();
-    answer.problem = json.at("problem").get<std::string>();
-    answer.force_error =
-        answer.converged ? json.at("force_error").get<double>() : std::numeric_limits<double>::infinity();
-    answer.displacement_error = json.at("displacement_error").get<double>();
-    return answer;
+    if (!json.is_object()) return std::nullopt;
+    try {
+        LoadAnswer answer;
+        answer.converged = json.at("converged").get<bool>();
+        answer.problem = json.at("problem").get<std::string>();
+        answer.force_error =
+            answer.converged ? json.at("force_error").get<double>() : std::numeric_limits<double>::infinity();
+        answer.displacement_error = json.at("displacement_error").get<double>();
+        return answer;
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;  // of another version of the program, or not ours
+    }
 }
 
 bool is_scenes(const std::string& name) {

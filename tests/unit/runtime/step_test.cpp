@@ -114,8 +114,9 @@ double largest_relative_difference(const std::vector<Vec>& a, const std::vector<
 }
 
 TEST(Step, in_mixed_arithmetic_is_right_where_single_precision_is_not) {
-    // Half of what a step may err by the default tolerance.
-    constexpr double kMixedError = 1.5e-4;
+    // The rounding of the solve, which no tolerance makes smaller: measured from 0.7e-4 to 3.2e-4, as the
+    // compiler and the instruction set fuse multiplications with additions or not.
+    constexpr double kMixedError = 5e-4;
     const Asset asset = islands(1e6);
     for (const double dt_s : {10e-3, 1e-3}) {
         const auto exact = forces_in(asset, Arithmetic::float64, dt_s, 1e-6);
