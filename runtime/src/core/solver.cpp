@@ -187,7 +187,9 @@ bool Solver<S>::believes(const System<S>& system, const Preconditioner<S>& preco
     // Stiff matter makes E far greater than the velocities are.
     const Real in_mass = static_cast<Real>(system.fields.weighted_square(
         run_of(system.model.free_count), system.masses.kg.data(), preconditioned_.nodes.data()));
-    return velocities_settled(system, limits, kTrustInMass * in_mass);
+    // What makes r.z too small makes this too small.
+    const Real too_small = watches ? decreases.underestimate() : 1;
+    return velocities_settled(system, limits, kTrustInMass * too_small * in_mass);
 }
 
 /// product_ = A direction_, projected. @return direction_ . product_

@@ -105,7 +105,7 @@ TypedStepper<S, V>::TypedStepper(const Asset& asset, const SimulationConfig& con
     solution_.row_n.assign(contact_.max_constraints(), Vec::Zero());
     for (std::size_t k = 0; k < count; ++k) {
         const Model::Range bonded = model_.bonded[k];
-        Tool& tool = tools_[k];
+        SteppedTool& tool = tools_[k];
         for (std::uint32_t i = bonded.begin; i < bonded.end; ++i)
             tool.anchors.push_back(contact_.rest_frame(k).to_local(model_.rest_m[i]));
         tool.displacements_m = tool.velocities = tool.next_m = tool.accelerations = tool.anchors;
@@ -122,15 +122,14 @@ void TypedStepper<S, V>::make_room_for_views(const std::vector<ToolSet>& tools) 
         most += tools_[k].anchors.size();
     }
     held_.reserve(most);
-    impedance_.emplace_back(model_, tools.size(), config_.with_torque ? 6 : 3);
+    impedance_.emplace(model_, tools.size(), config_.with_torque ? 6 : 3);
 }
 
 template <class S, class V>
 void TypedStepper<S, V>::reset() noexcept {
     step_dt_s_ = 0;
     steps_ = 0;
-    for (ToolImpedance<V>& impedance : impedance_)
-        impedance.reset();
+    if (impedance_) impedance_->reset();
     displacements_.fill_zero();
     velocities_.fill_zero();
     beyond_.fill_zero();
@@ -141,7 +140,7 @@ void TypedStepper<S, V>::reset() noexcept {
     preconditioner_.reset();
     solver_.reset();
     for (std::size_t k = 0; k < tools_.size(); ++k) {
-        Tool& tool = tools_[k];
+        SteppedTool& tool = tools_[k];
         tool.position = tool.hand = contact_.rest_frame(k).position;
         tool.velocity.setZero();
         std::fill(tool.displacements_m.begin(), tool.displacements_m.end(), Vec::Zero());
@@ -225,7 +224,8 @@ void TypedStepper<S, V>::predict(const Frame* hands, Real dt) noexcept {
 }
 
 template <class S, class V>
-void TypedStepper<S, V>::couple(Tool& tool, ToolUnknown& unknown, const Frame& hand, Real dt) const noexcept {
+void TypedStepper<S, V>::couple(SteppedTool& tool, ToolUnknown& unknown, const Frame& hand,
+                                Real dt) const noexcept {
     const Real stiffness = config_.coupling_stiffness_n_per_m;
     const Real damping = config_.coupling_damping_n_s_per_m;
     tool.frame.position = tool.position + dt * tool.velocity;
@@ -240,7 +240,7 @@ void TypedStepper<S, V>::couple(Tool& tool, ToolUnknown& unknown, const Frame& h
 /// Bonded nodes go where their tool takes them: a better point to linearise at than along their velocity.
 template <class S, class V>
 void TypedStepper<S, V>::predict_bonded(std::size_t k) noexcept {
-    Tool& tool = tools_[k];
+    SteppedTool& tool = tools_[k];
     const std::uint32_t begin = model_.bonded[k].begin;
     for (std::size_t i = 0; i < tool.anchors.size(); ++i) {
         const std::size_t node = begin + i;
@@ -270,7 +270,7 @@ void TypedStepper<S, V>::linearise(const System<V>& system) noexcept {
             load_.add(i, (-dt2 * model_.damping_per_s * model_.mass_kg[i]) * velocities_.get(i));
     }
     for (std::size_t k = 0; k < tools_.size(); ++k) {
-        const Tool& tool = tools_[k];
+        const SteppedTool& tool = tools_[k];
         for (std::size_t i = 0; i < tool.anchors.size(); ++i) {
             const std::size_t node = model_.bonded[k].begin + i;
             const Vec along = dt * tool.velocities[i];
@@ -300,7 +300,7 @@ void TypedStepper<S, V>::predict_again(const System<V>& system) noexcept {
     ahead_share_ = 1;
     fields_.add_scaled(free, predicted_.data(), S(1), d.data(), predicted_.data());
     for (std::size_t k = 0; k < tools_.size(); ++k) {
-        Tool& tool = tools_[k];
+        SteppedTool& tool = tools_[k];
         ToolUnknown& unknown = unknowns_[k];
         const Vec further = solution_.displacement.tools[k];
         tool.frame.position += further;
@@ -418,7 +418,7 @@ void TypedStepper<S, V>::accept(const Frame* hands, Real dt, bool failed) noexce
         beyond_.fill_zero();
     }
     for (std::size_t k = 0; k < tools_.size(); ++k) {
-        Tool& tool = tools_[k];
+        SteppedTool& tool = tools_[k];
         const Vec further = solution_.displacement.tools[k];
         tool.frame.position += further;
         tool.velocity = (tool.frame.position - tool.position) / dt;
@@ -461,7 +461,7 @@ void TypedStepper<S, V>::owe(Real dt) noexcept {
 template <class S, class V>
 void TypedStepper<S, V>::find_results(Real dt) noexcept {
     for (std::size_t k = 0; k < tools_.size(); ++k) {
-        const Tool& tool = tools_[k];
+        const SteppedTool& tool = tools_[k];
         ToolResult& result = results_[k];
         result.force_n = to_array(solution_.force_n[k]);
         result.tool_position_m = to_array(tool.position);
@@ -480,7 +480,7 @@ void TypedStepper<S, V>::find_results(Real dt) noexcept {
 template <class S, class V>
 void TypedStepper<S, V>::list_held(std::size_t k) noexcept {
     held_.clear();
-    const Tool& tool = tools_[k];
+    const SteppedTool& tool = tools_[k];
     const NodeReader positions(model_.rest_m, displacements_);
     const Real dt2 = step_dt_s_ * step_dt_s_, damping = model_.damping_per_s;
     const std::vector<Constraint>& constraints = contact_.constraints();
@@ -512,11 +512,11 @@ void TypedStepper<S, V>::list_held(std::size_t k) noexcept {
 
 template <class S, class V>
 bool TypedStepper<S, V>::local_model(std::size_t tool, LocalModel& out) noexcept {
-    if (impedance_.empty() || tool >= tools_.size() || !(step_dt_s_ > 0)) return false;
+    if (!impedance_ || tool >= tools_.size() || !(step_dt_s_ > 0)) return false;
     const NoDenormals no_denormals;
     list_held(tool);
     Impedance found;
-    impedance_[0].find(system(step_dt_s_), preconditioner_, static_cast<std::uint32_t>(tool), held_, found);
+    impedance_->find(system(step_dt_s_), preconditioner_, static_cast<std::uint32_t>(tool), held_, found);
     const Frame& frame = tools_[tool].frame;
     out = view_of(frame, found);
     reaches_[tool].describe(frame, held_, NodeReader(model_.rest_m, displacements_), out);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/contact.h"
@@ -11,6 +12,15 @@
 #include "core/tool_impedance.h"
 
 namespace knead::core {
+
+/// A tool between steps and in the one under way.
+struct SteppedTool {
+    Frame frame;                                                             ///< predicted
+    Vec position = Vec::Zero(), velocity = Vec::Zero(), hand = Vec::Zero();  ///< after the last step
+    /// Of the nodes bonded to it: place in the tool's frame, velocity, and displacement (all in double,
+    /// because a force is read from their changes).
+    std::vector<Vec> anchors, displacements_m, velocities, next_m, accelerations;
+};
 
 /// S: the numbers of the state, in which it is predicted and linearised; V: those of the solve, S or
 /// narrower.
@@ -48,19 +58,10 @@ class TypedStepper final : public Stepper {
         int looks_ = 0;
     };
 
-    /// A tool between steps and in the one under way.
-    struct Tool {
-        Frame frame;                                                             ///< predicted
-        Vec position = Vec::Zero(), velocity = Vec::Zero(), hand = Vec::Zero();  ///< after the last step
-        /// Of the nodes bonded to it: place in the tool's frame, velocity, and displacement (all in double,
-        /// because a force is read from their changes).
-        std::vector<Vec> anchors, displacements_m, velocities, next_m, accelerations;
-    };
-
     void make_room_for_views(const std::vector<ToolSet>& tools);
     [[nodiscard]] bool carries_too_far(std::size_t k) const noexcept;
     void predict(const Frame* hands, Real dt) noexcept;
-    void couple(Tool& tool, ToolUnknown& unknown, const Frame& hand, Real dt) const noexcept;
+    void couple(SteppedTool& tool, ToolUnknown& unknown, const Frame& hand, Real dt) const noexcept;
     void predict_bonded(std::size_t k) noexcept;
     void linearise(const System<V>& system) noexcept;
     [[nodiscard]] bool went_far() const noexcept;
@@ -106,7 +107,7 @@ class TypedStepper final : public Stepper {
     /// the next step, so that small errors do not add up to a drift.
     NodeField<S> owed_;
     Real owed_dt_s_ = 1;
-    std::vector<Tool> tools_;
+    std::vector<SteppedTool> tools_;
 
     // Of the step under way.
     NodeField<S> predicted_, load_, scratch_;
@@ -124,8 +125,8 @@ class TypedStepper final : public Stepper {
     std::vector<ToolResult> results_;
 
     // For linear views, if asked for.
-    std::vector<ToolReach> reaches_;           ///< [tools]
-    std::vector<ToolImpedance<V>> impedance_;  ///< one or none
+    std::vector<ToolReach> reaches_;  ///< [tools]
+    std::optional<ToolImpedance<V>> impedance_;
     std::vector<HeldPart> held_;
     Real step_dt_s_ = 0;       ///< of the last step; zero: refused, or none yet
     std::uint64_t steps_ = 0;  ///< since reset()

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "unit/runtime/block_asset.h"
 
@@ -47,6 +48,24 @@ TEST(Simulation, from_an_asset_that_is_not_valid_is_refused) {
     const auto simulation = Simulation::create(asset);
     ASSERT_FALSE(simulation.ok());
     EXPECT_EQ(simulation.error().code, ErrorCode::invalid_data);
+}
+
+TEST(Simulation, of_matter_beyond_what_a_step_can_compute_with_is_refused_and_told_where) {
+    for (const double e_pa : {1e35, 1e-35}) {
+        Asset asset = press_cube();
+        asset.palette.push_back({e_pa, 0.3, 1000});
+        for (const std::size_t t : {2, 5, 7, 11})
+            asset.palette_index[t] = 1;
+        ASSERT_EQ(asset.palette.size(), 2u) << "or the index means another entry";
+        const auto simulation = Simulation::create(asset);
+        ASSERT_FALSE(simulation.ok()) << e_pa;
+        EXPECT_EQ(simulation.error().code, ErrorCode::invalid_data);
+        const std::string text = simulation.error().text();
+        const std::string where =
+            "4 of " + std::to_string(asset.tetrahedra.size()) + " tetrahedra (2, 5, 7) ";
+        EXPECT_NE(text.find(where), std::string::npos) << text;
+        EXPECT_NE(text.find(": stiffness "), std::string::npos) << text;
+    }
 }
 
 TEST(Simulation, with_a_config_out_of_range_is_refused_and_told_which) {

@@ -116,7 +116,8 @@ double largest_relative_difference(const std::vector<Vec>& a, const std::vector<
 TEST(Step, in_mixed_arithmetic_is_right_where_single_precision_is_not) {
     // The rounding of the solve, which no tolerance makes smaller: measured from 0.7e-4 to 3.2e-4, as the
     // compiler and the instruction set fuse multiplications with additions or not.
-    constexpr double kMixedError = 5e-4;
+    constexpr double kMixedError = 4e-4;
+    constexpr double kSinglesShare = 1.5;  // measured: 5
     const Asset asset = islands(1e6);
     for (const double dt_s : {10e-3, 1e-3}) {
         const auto exact = forces_in(asset, Arithmetic::float64, dt_s, 1e-6);
@@ -126,8 +127,9 @@ TEST(Step, in_mixed_arithmetic_is_right_where_single_precision_is_not) {
     }
     const double dt_s = 10e-3;
     const auto exact = forces_in(asset, Arithmetic::float64, dt_s, 1e-6);
-    EXPECT_GT(largest_relative_difference(forces_in(asset, Arithmetic::float32, dt_s, 1e-4), exact),
-              2 * kMixedError)
+    EXPECT_GT(
+        largest_relative_difference(forces_in(asset, Arithmetic::float32, dt_s, 1e-4), exact),
+        kSinglesShare * largest_relative_difference(forces_in(asset, Arithmetic::mixed, dt_s, 1e-4), exact))
         << "or the case shows nothing";
 }
 
@@ -292,14 +294,11 @@ TEST(Step, with_a_dt_out_of_range_is_refused) {
 }
 
 TEST(Step, that_would_leave_the_finite_numbers_gives_zero_force_and_keeps_the_state) {
-    const Asset asset = pressed_cube(2);
-    SimulationConfig config;
-    config.coupling_stiffness_n_per_m = 1e4;
-    config.coupling_damping_n_s_per_m = 1e306;  // no sane number, but a number
-    Stepper stepper(asset, config);
+    const Asset asset = cube_asset(2, ToolShape::plate, ToolContact::sticking);
+    Stepper stepper(asset, {});
     (void)settle(stepper, asset, {0, 0, -0.01}, 20, 10);
     const Field before = stepper.positions_m();
-    const StepResult result = stepper.step(moved(asset, {100, 0, 0}), 1e-3);
+    const StepResult result = stepper.step(moved(asset, {1e306, 0, 0}), 1e-3);
     EXPECT_TRUE(result.status & kStepNotFinite) << result.status;
     EXPECT_EQ(result.force_n, Vec3{});
     EXPECT_EQ(largest_distance(stepper.positions_m(), before), 0);

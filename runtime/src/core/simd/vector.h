@@ -43,7 +43,7 @@ inline V broadcast(S value) {
 
 template <int W, class S>
 inline S sum(Vector<S, W> v) {
-    S lanes[W];
+    alignas(Vector<S, W>) S lanes[W];
     store(lanes, v);
     for (int half = W / 2; half > 0; half /= 2) {
         for (int k = 0; k < half; ++k)
