@@ -2,7 +2,6 @@
 #include "core/linearisations.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace knead::core {
 namespace {
@@ -33,10 +32,11 @@ bool is_flat(const Element& element, const Field& rest_m) {
 
 Linearisations::Linearisations(const Model& model, const Numerics& numerics, int most)
     : wanted_(most),
-      hard_((numerics.press_contrast >= kIslandsPressContrast &&
-             numerics.max_poissons_ratio >= kBucklingPoissonsRatio) ||
-            std::any_of(model.elements.begin(), model.elements.end(),
-                        [&](const Element& element) { return is_flat(element, model.rest_m); })) {}
+      hard_(most == 0 &&
+            ((numerics.press_contrast >= kIslandsPressContrast &&
+              numerics.max_poissons_ratio >= kBucklingPoissonsRatio) ||
+             std::any_of(model.elements.begin(), model.elements.end(),
+                         [&](const Element& element) { return is_flat(element, model.rest_m); }))) {}
 
 int Linearisations::most(Real dt_s) const noexcept {
     if (wanted_ > 0) return wanted_;

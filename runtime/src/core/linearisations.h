@@ -26,7 +26,7 @@ class Linearisations {
 
   private:
     int wanted_;
-    bool hard_;  ///< the matter is such
+    bool hard_;  ///< the matter is such; not looked at where the application has said what it wants
 };
 
 }  // namespace knead::core

@@ -205,12 +205,17 @@ void Preconditioner<S>::reset() noexcept {
 
 template <class S>
 void Preconditioner<S>::begin_step(const System<S>& system) noexcept {
+    turn(system);
+    follow(system.dt_s);
+}
+
+template <class S>
+void Preconditioner<S>::turn(const System<S>& system) noexcept {
     if (uses_sparse_ || !laplacian()) {
         const auto shares = static_cast<std::uint32_t>(kRotationsIn_s / system.dt_s);
         rotations_.update(system.stiffness, std::clamp(shares, 1u, rotation_shares_));
     }
     turns_ = !uses_sparse_ || rotations_.mean_angle_rad() > kTurnSparse_rad;
-    follow(system.dt_s);
 }
 
 /// Numbers for another dt, once it lasts.

@@ -30,6 +30,8 @@ class Preconditioner {
 
     /// Once for each step, after elements have been linearised.
     void begin_step(const System<S>& system) noexcept;
+    /// A part of it: after they have been linearised again in the same step.
+    void turn(const System<S>& system) noexcept;
 
     /// Takes the held nodes of `system` into account, whenever they changed.
     void hold(const System<S>& system) noexcept;

@@ -329,7 +329,10 @@ std::uint32_t TypedStepper<S, V>::solve_with_contact(const System<V>& system) no
     solution_.displacement.nodes.fill_zero();
     solution_.from_zero = true;
     std::fill(solution_.displacement.tools.begin(), solution_.displacement.tools.end(), Vec::Zero());
-    preconditioner_.begin_step(system);
+    if (again_)
+        preconditioner_.turn(system);
+    else
+        preconditioner_.begin_step(system);
     const NodeField<V>& load = for_solve_.of(load_);
     EarlyLook look(*this, limits);
     for (int pass = 0; pass < config_.max_contact_passes;) {
