@@ -48,7 +48,7 @@ void count(const StepResult& result, Accuracy& accuracy) {
     accuracy.largest_force_n = std::max(accuracy.largest_force_n, force);
     if ((result.status & kStepNotConverged) != 0) ++accuracy.not_converged_steps;
     if ((result.status & kStepNotFinite) != 0) ++accuracy.not_finite_steps;
-    if ((result.status & ~std::uint32_t{kStepNotConverged | kStepNotFinite}) != 0)
+    if (!is_solved(result.status & ~std::uint32_t{kStepNotConverged | kStepNotFinite}))
         ++accuracy.other_status_steps;
 }
 
@@ -78,7 +78,7 @@ Accuracy measure_accuracy(Simulation& simulation, const Body& body, const Accura
                 {static_cast<std::size_t>(k), exact.step(state_of(simulation), pose, request.dt_s).force_n});
         const StepResult result = simulation.step(pose, request.dt_s);
         count(result, accuracy);
-        ok.push_back(result.status == kStepOk);
+        ok.push_back(is_solved(result.status));
         const Step next = exact.step(truth, pose, request.dt_s);
         truth = next.state;
         truth_n.push_back(next.force_n);

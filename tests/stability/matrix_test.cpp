@@ -11,14 +11,6 @@
 namespace knead::tools::stability {
 namespace {
 
-/// Cells that fail, why in docs/stability.md. One that does not fail any more is to be taken off the list.
-const std::map<std::string, std::string>& known_faults() {
-    static const std::map<std::string, std::string> faults{
-        {"fast/bonded plate teleported by -1000 %", "does not come to rest"},
-    };
-    return faults;
-}
-
 class StabilityFamily : public testing::TestWithParam<const char*> {};
 
 TEST_P(StabilityFamily, Has_no_cell_that_fails) {
@@ -27,13 +19,8 @@ TEST_P(StabilityFamily, Has_no_cell_that_fails) {
     request.shortened = true;
     const std::vector<CellResult> cells = run_stability(request);
     ASSERT_FALSE(cells.empty());
-    for (const CellResult& cell : cells) {
-        const bool known = known_faults().count(cell.name) > 0;
-        if (known)
-            EXPECT_EQ(cell.status(), CellStatus::fail) << cell.name << ": mended; take it off the list";
-        else
-            EXPECT_NE(cell.status(), CellStatus::fail) << stability_table({cell});
-    }
+    for (const CellResult& cell : cells)
+        EXPECT_NE(cell.status(), CellStatus::fail) << stability_table({cell});
     const StabilityCounts counts = count_of(cells);
     RecordProperty("pass", static_cast<int>(counts.pass));
     RecordProperty("warn", static_cast<int>(counts.warn));

@@ -128,7 +128,7 @@ void ask_runtime(const PreparedScene& scene, const CoarseObject& coarse, const M
     const RuntimeRest rest = press_until_still(press.asset, 0, press.direction, press.way_m);
     cell.runtime_force_n = rest.force_n;
     if (!rest.is_still) cell.problem = "the runtime does not come to rest";
-    if (rest.status != kStepOk) cell.problem = fmt::format("the runtime's step status is {}", rest.status);
+    if (!is_solved(rest.status)) cell.problem = fmt::format("the runtime's step status is {}", rest.status);
 }
 
 std::optional<CurveResult> evaluate_curve(const CellTask& task, const ResultCache& cache) {

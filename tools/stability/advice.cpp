@@ -43,6 +43,8 @@ const char* name_of(Warning warning) {
             return "spin_loss";
         case Warning::hooked:
             return "hooked";
+        case Warning::inside_out:
+            return "inside_out";
     }
     return "";
 }
@@ -51,7 +53,8 @@ const std::vector<Warning>& all_warnings() {
     static const std::vector<Warning> all{
         Warning::not_converged, Warning::contact_cap,     Warning::iterations,   Warning::step_force,
         Warning::linearisation, Warning::force_at_rest,   Warning::no_reference, Warning::locking,
-        Warning::slivers,       Warning::dt_out_of_range, Warning::spin_loss,    Warning::hooked};
+        Warning::slivers,       Warning::dt_out_of_range, Warning::spin_loss,    Warning::hooked,
+        Warning::inside_out};
     return all;
 }
 
@@ -121,6 +124,12 @@ Advice advice_for(Warning warning) {
                 "do not let a tool jump: the haptic loop refuses jumps of the hand; a coupling keeps the "
                 "tool's "
                 "speed finite; after a jump call reset()"};
+        case Warning::inside_out:
+            return {
+                "the tool has turned tetrahedra inside out in some steps; they told it. Their forces are the "
+                "model's, which jump where the nearest rotation does, so that there may be no rest",
+                "do not press or pull matter beyond what it bears: limit the tool's way, or take the bit as a "
+                "sign to let go; a finer mesh spreads large strains over more tetrahedra"};
     }
     return {"", ""};
 }

@@ -47,7 +47,8 @@ inline constexpr std::size_t kMostSteps = 30'000;
 /// haptic period.
 inline constexpr double kMeanIterations = 30;
 /// A step that tells not_converged or contact_cap is honest: warning. An object that does so in more than
-/// this share of its steps is not usable: fail.
+/// this share of its steps is not usable: fail. (inside_out speaks of where the tool has taken the object: it
+/// warns, for as long as the tool stays.)
 inline constexpr double kToldShare = 0.1;
 
 // ---- Contact ------------------------------------------------------------------------------------------

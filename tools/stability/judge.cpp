@@ -102,18 +102,19 @@ void judge_energy(const Record& record, std::vector<Check>& checks) {
 
 void judge_status(const Record& record, std::vector<Check>& checks) {
     const auto steps = static_cast<double>(std::max<std::uint64_t>(1, record.steps));
-    const auto told = [&](const char* name, std::uint64_t count, Warning warning) {
+    const auto told = [&](const char* name, std::uint64_t count, double most, Warning warning) {
         const double share = static_cast<double>(count) / steps;
         Check check{name, static_cast<double>(count), 0, "steps", CellStatus::pass, Warning::none, ""};
         if (count > 0) {
-            check.status = share > criteria::kToldShare ? CellStatus::fail : CellStatus::warn;
+            check.status = share > most ? CellStatus::fail : CellStatus::warn;
             check.warning = warning;
             check.note = fmt::format("{} of {} steps", count, record.steps);
         }
         checks.push_back(check);
     };
-    told("not_converged", record.not_converged, Warning::not_converged);
-    told("contact_cap", record.contact_cap, Warning::contact_cap);
+    told("not_converged", record.not_converged, criteria::kToldShare, Warning::not_converged);
+    told("contact_cap", record.contact_cap, criteria::kToldShare, Warning::contact_cap);
+    told("inside_out", record.inside_out, 1, Warning::inside_out);
     checks.push_back(at_most("bad_input", static_cast<double>(record.bad_input), 0, "steps"));
     checks.push_back(at_most("iterations", record.mean_iterations, criteria::kMeanIterations, "a step, mean",
                              CellStatus::warn, Warning::iterations));

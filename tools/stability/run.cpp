@@ -73,9 +73,12 @@ class Runner {
         return (share >= 0 && share < 0.1) || share > 0.9;
     }
     [[nodiscard]] std::vector<Pose> tool_poses(const std::vector<Pose>& hands) const;
+    /// That the step is not solved.
     [[nodiscard]] bool told() const {
         return (result_.status & (kStepNotConverged | kStepContactCap | kStepNotFinite)) != 0;
     }
+    /// That the object may have no rest.
+    [[nodiscard]] bool told_no_rest() const { return told() || (result_.status & kStepInsideOut) != 0; }
 
     const Specimen& specimen_;
     const Script& script_;
@@ -125,6 +128,7 @@ void Runner::count(const StepResult& result) {
     record_.contact_cap += bit(kStepContactCap);
     record_.not_finite += bit(kStepNotFinite);
     record_.bad_input += bit(kStepBadInput);
+    record_.inside_out += bit(kStepInsideOut);
     iterations_ += result.solver_iterations;
     record_.most_iterations = std::max(record_.most_iterations, result.solver_iterations);
 }
@@ -199,7 +203,8 @@ void Runner::compare_at_rest() {
     for (std::size_t k = 0; k < results_.size(); ++k) {
         const Eigen::Map<const Eigen::Vector3d> force(results_[k].force_n.data());
         const double reference_n = truth.force_n[k].norm();
-        const ForceSample sample{(force - truth.force_n[k]).norm() + truth.unbalanced_n, reference_n, told()};
+        const ForceSample sample{(force - truth.force_n[k]).norm() + truth.unbalanced_n, reference_n,
+                                 told_no_rest()};
         const bool is_worse = sample.difference_n * worst.reference_n >= worst.difference_n * reference_n;
         if (k == 0 || is_worse) worst = sample;
     }

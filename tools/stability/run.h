@@ -23,7 +23,8 @@ struct ForceSample {
 /// What happened in a run; nothing is judged here.
 struct Record {
     std::uint64_t steps = 0;
-    std::uint64_t not_converged = 0, contact_cap = 0, not_finite = 0, bad_input = 0;  ///< steps that told
+    /// Steps that told it.
+    std::uint64_t not_converged = 0, contact_cap = 0, not_finite = 0, bad_input = 0, inside_out = 0;
     bool finite = true;    ///< every force, position and velocity that came out
     bool complete = true;  ///< false: cut at criteria::kMostSteps
     double mean_iterations = 0;

@@ -28,6 +28,7 @@ enum class Warning : std::uint8_t {
     dt_out_of_range,
     spin_loss,
     hooked,
+    inside_out,
 };
 
 /// One number of a cell against its bound.

@@ -12,8 +12,8 @@ namespace knead::tools {
 inline constexpr std::array<const char*, 11> kHapticStatusNames{
     "saturated",    "not_finite", "passivity", "slew_limited", "ramping",    "stale_model",
     "stale_device", "bad_pose",   "pose_jump", "time_jump",    "step_failed"};
-inline constexpr std::array<const char*, 4> kStepStatusNames{"not_converged", "step_not_finite", "bad_input",
-                                                             "contact_cap"};
+inline constexpr std::array<const char*, 5> kStepStatusNames{"not_converged", "step_not_finite", "bad_input",
+                                                             "contact_cap", "inside_out"};
 
 /// "ramping, slew limited, not converged", or "ok".
 [[nodiscard]] std::string status_words(std::uint32_t haptic_status, std::uint32_t step_status);

@@ -51,7 +51,8 @@ enum {
     KNEAD_STEP_NOT_CONVERGED = 1, /* the solver stopped at its cap; the force is its best estimate */
     KNEAD_STEP_NOT_FINITE = 2,    /* the state would not be finite: force zero, last good state kept */
     KNEAD_STEP_BAD_INPUT = 4,     /* pose or dt not finite or out of range: force zero, state kept */
-    KNEAD_STEP_CONTACT_CAP = 8    /* the set of touched nodes had not settled at its cap */
+    KNEAD_STEP_CONTACT_CAP = 8,   /* the set of touched nodes had not settled at its cap */
+    KNEAD_STEP_INSIDE_OUT = 16    /* tetrahedra are inside out: the force is the model's, no matter's */
 };
 
 /* knead_config.arithmetic: how a step computes. */

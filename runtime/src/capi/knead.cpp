@@ -121,6 +121,7 @@ static_assert(KNEAD_STEP_NOT_CONVERGED == int{knead::kStepNotConverged});
 static_assert(KNEAD_STEP_NOT_FINITE == int{knead::kStepNotFinite});
 static_assert(KNEAD_STEP_BAD_INPUT == int{knead::kStepBadInput});
 static_assert(KNEAD_STEP_CONTACT_CAP == int{knead::kStepContactCap});
+static_assert(KNEAD_STEP_INSIDE_OUT == int{knead::kStepInsideOut});
 static_assert(KNEAD_ERROR_INVALID_ARGUMENT == static_cast<int>(knead::ErrorCode::invalid_argument));
 
 }  // namespace
@@ -313,6 +314,7 @@ const char* knead_step_status_name(uint32_t status) noexcept {
     if ((status & KNEAD_STEP_NOT_FINITE) != 0) return "not_finite";
     if ((status & KNEAD_STEP_BAD_INPUT) != 0) return "bad_input";
     if ((status & KNEAD_STEP_CONTACT_CAP) != 0) return "contact_cap";
+    if ((status & KNEAD_STEP_INSIDE_OUT) != 0) return "inside_out";
     return "unknown";
 }
 

@@ -114,10 +114,10 @@ void Elements<S, V>::reset() noexcept {
 }
 
 template <class S, class V>
-void Elements<S, V>::linearise(S scale, const NodeField<S>& u, NodeField<S>& forces) noexcept {
+bool Elements<S, V>::linearise(S scale, const NodeField<S>& u, NodeField<S>& forces) noexcept {
     forces.fill_zero();
-    kernels_.linearise({this->view(), rest_inverse_.data(), state().data()}, scale, u.data(), forces.data(),
-                       find_rotation<S>);
+    return kernels_.linearise({this->view(), rest_inverse_.data(), state().data()}, scale, u.data(),
+                              forces.data(), find_rotation<S>);
 }
 
 template class Stiffness<float>;

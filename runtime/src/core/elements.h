@@ -72,7 +72,8 @@ class Elements : public Stiffness<V> {
 
     /// Linearises at rest + `u` (m). @param forces overwritten with scale * the elastic force on every node
     /// (N)
-    void linearise(S scale, const NodeField<S>& u, NodeField<S>& forces) noexcept;
+    /// @return whether a tetrahedron is inside out there
+    bool linearise(S scale, const NodeField<S>& u, NodeField<S>& forces) noexcept;
 
   private:
     Elements(const Model& model, const std::vector<TetStrip>& strips, const ElementKernels<S, V>& kernels);

@@ -181,7 +181,7 @@ StepResult TypedStepper<S, V>::step(const Pose* poses, double dt_s) noexcept {
     find_results(dt_s);
     step_dt_s_ = dt_s;
     ++steps_;
-    return result(status);
+    return result(status | (inside_out_ ? kStepInsideOut : kStepOk));
 }
 
 template <class S, class V>
@@ -254,7 +254,7 @@ void TypedStepper<S, V>::predict_bonded(std::size_t k) noexcept {
 template <class S, class V>
 void TypedStepper<S, V>::linearise(const System<V>& system) noexcept {
     const Real dt = system.dt_s, dt2 = dt * dt;
-    elements_.linearise(static_cast<S>(dt2), predicted_, load_);
+    inside_out_ = elements_.linearise(static_cast<S>(dt2), predicted_, load_);
     const std::size_t free = run_of(model_.free_count);
     fields_.add_scaled(free, load_.data(), static_cast<S>(dt / owed_dt_s_), owed_.data(), load_.data());
     fields_.multiply(free, from_solve_.of(masses_.kg).data(), static_cast<S>(-system.inertia * ahead_share_),

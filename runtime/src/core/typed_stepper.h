@@ -116,6 +116,7 @@ class TypedStepper final : public Stepper {
     NodeField<S> ahead_;
     Real ahead_share_ = 0;
     bool again_ = false;
+    bool inside_out_ = false;  ///< a tetrahedron is, where the step was linearised
     Converted<V, S> for_solve_;
     Converted<S, V> from_solve_;
     std::vector<Frame> hands_, frames_;

@@ -23,6 +23,7 @@ static void check_names(void) {
     CHECK(strcmp(knead_error_name((knead_error)99), "unknown") == 0);
     CHECK(strcmp(knead_step_status_name(0), "ok") == 0);
     CHECK(strcmp(knead_step_status_name(KNEAD_STEP_BAD_INPUT), "bad_input") == 0);
+    CHECK(strcmp(knead_step_status_name(KNEAD_STEP_INSIDE_OUT), "inside_out") == 0);
     CHECK(strcmp(knead_step_status_name(1u << 30), "unknown") == 0);
     CHECK(knead_version()[0] != '\0');
 }

@@ -440,6 +440,38 @@ class LooseTetrahedra {
     Field u_;
 };
 
+template <class S, class V>
+void expect_inside_out_is_told(SimdTarget target) {
+    constexpr std::size_t kCount = 37;  // fills no block of any instruction set
+    Random random(5);
+    LooseTetrahedra loose(kCount);
+    Body<S, V> body(loose.model(), target);
+    NodeField<S> forces(loose.model().rest_m.size());
+    const auto told = [&] { return body.elements().linearise(1, nodes_of<S>(loose.u()), forces); };
+    const auto any_turn = [&] {
+        return Quat(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 1).normalized();
+    };
+    EXPECT_FALSE(told());
+    for (std::size_t t = 0; t < kCount; ++t) {
+        const Mat before = any_turn() * Vec(random.uniform(0.5, 2), 1, 1).asDiagonal();
+        const Mat turn = any_turn().toRotationMatrix();
+        for (const double height : {-1e-3, -0.5, 1e-3, -3.0, 0.5}) {
+            const Mat f = loose.set(t, turn * Vec(1.5, 0.7, height).asDiagonal() * turn.transpose());
+            EXPECT_EQ(told(), f.determinant() < 0) << t << ", " << height;
+        }
+        EXPECT_GT(loose.set(t, before).determinant(), 0);
+        EXPECT_FALSE(told());
+    }
+}
+
+TEST(Elements, tell_if_one_of_many_is_inside_out) {
+    for (const SimdTarget target : targets()) {
+        expect_inside_out_is_told<float, float>(target);
+        expect_inside_out_is_told<double, float>(target);
+        expect_inside_out_is_told<double, double>(target);
+    }
+}
+
 /// Several moves, each from where the last left the rotations. next(t) is the deformation gradient.
 template <class S, class Next>
 void expect_svd_rotations(std::size_t count, int moves, Next&& next) {

@@ -159,5 +159,15 @@ TEST(Judge, Tool_that_left_with_nodes_on_it_warns_instead_of_judging_recovery) {
     EXPECT_EQ(judged(record, demands).warnings(), std::vector<Warning>{Warning::hooked});
 }
 
+TEST(Judge, Matter_that_was_told_to_be_inside_out_warns_however_long) {
+    Record record = good_run();
+    record.inside_out = record.steps;
+    EXPECT_EQ(judged(record).warnings(), std::vector<Warning>{Warning::inside_out});
+    record.at_rest = ForceSample{4, 8, true};
+    EXPECT_EQ(judged(record).warnings(), std::vector<Warning>{Warning::inside_out});
+    record.at_rest->told = false;
+    EXPECT_EQ(judged(record).status(), CellStatus::fail);
+}
+
 }  // namespace
 }  // namespace knead::tools::stability

@@ -15,7 +15,15 @@ enum StepStatus : std::uint32_t {
     kStepBadInput = 1u << 2,      ///< pose or dt not finite or out of range, or a bonded tool farther from
                                   ///< its rest pose than 1e4 times the object: force zero, state kept
     kStepContactCap = 1u << 3,    ///< the set of touched nodes had not settled at its cap
+    kStepInsideOut = 1u << 4,     ///< the step went through a state with tetrahedra turned inside out: the
+                                  ///< force is the model's, but matter cannot be there, and there may be no
+                                  ///< rest
 };
+
+/// Whether the force is the solution of the step, of matter that may be inside out.
+constexpr bool is_solved(std::uint32_t status) noexcept {
+    return (status & ~std::uint32_t{kStepInsideOut}) == kStepOk;
+}
 
 /// What one step yields for one tool.
 struct ToolResult {

@@ -48,7 +48,8 @@ struct ElementKernels {
     std::size_t width;
     /// Updates rotations and gradients; forces += scale * elastic forces (N).
     /// @param u displacements from rest, m
-    void (*linearise)(const ElementArrays<S, V>& elements, S scale, const S* u, S* forces,
+    /// @return whether a tetrahedron is inside out
+    bool (*linearise)(const ElementArrays<S, V>& elements, S scale, const S* u, S* forces,
                       RotationFallback<S> fallback);
     /// out += scale * K(R) u at the state that was linearised last
     void (*apply_stiffness)(const StiffnessArrays<V>& elements, V scale, const V* u, V* out);

@@ -190,6 +190,15 @@ inline Vector<S, W> update_rotations(const Matrices3<S, W>& grad_u, S* state, Ro
     return stretch;
 }
 
+/// det F of F = I + grad u: the volume as a share of that at rest.
+template <class S, int W>
+inline Vector<S, W> volume_of(const Matrices3<S, W>& grad_u) {
+    const Matrices3<S, W> f = plus_identity(grad_u);
+    return f(0, 0) * (f(1, 1) * f(2, 2) - f(1, 2) * f(2, 1)) -
+           f(0, 1) * (f(1, 0) * f(2, 2) - f(1, 2) * f(2, 0)) +
+           f(0, 2) * (f(1, 0) * f(2, 1) - f(1, 1) * f(2, 0));
+}
+
 /// From node 0 of a strip to three following ones: those of one tetrahedron.
 template <class S, int W>
 using Edges = Vectors3<S, W>[3];
@@ -330,12 +339,13 @@ inline void forces_of(const ElementArrays<S, V>& elements, Place<S, V> place, S 
 }
 
 template <class S, class V>
-void linearise(const ElementArrays<S, V>& elements, S scale, const S* u, S* forces,
+bool linearise(const ElementArrays<S, V>& elements, S scale, const S* u, S* forces,
                RotationFallback<S> fallback) {
     constexpr int W = kLanes<S>, kWidth = kLanes<V>;
     constexpr std::size_t N = kTetsInStrip, kParts = kWidth / W;
     Matrices3<S, W> grad_u[kStage * N];
     Vector<S, W> stretch[kStage * N];
+    decltype(stretch[0] < S(0)) inside_out{};
     const auto nodes_of = [&](std::size_t part) {
         return elements.linearised.nodes + part / kParts * (N + 3) * kWidth + part % kParts * W;
     };
@@ -353,9 +363,11 @@ void linearise(const ElementArrays<S, V>& elements, S scale, const S* u, S* forc
                         load_matrices<S, W, kWidth>(elements.rest_inverse + place_of(first + k, t).of(9)));
                 });
         }
-        for (std::size_t k = 0; k < count * N; ++k)
+        for (std::size_t k = 0; k < count * N; ++k) {
+            inside_out |= volume_of(grad_u[k]) < S(0);
             stretch[k] = update_rotations<S, W, kWidth>(
                 grad_u[k], elements.rotations + place_of(first + k / N, k % N).of(4), fallback);
+        }
         for (std::size_t k = 0; k < count; ++k) {
             StripForces<S, W, kWidth> sums(nodes_of(first + k), forces);
 #pragma GCC unroll 8
@@ -368,6 +380,7 @@ void linearise(const ElementArrays<S, V>& elements, S scale, const S* u, S* forc
             sums.finish();
         }
     }
+    return !all(~inside_out);
 }
 
 template <class S>
