@@ -190,8 +190,13 @@ void add_free_flight_cells(Cells& cells) {
     cells.push_back(flight_cell({.dt_s = 20e-3}));
     cells.push_back(flight_cell({.poissons_ratio = 0.49}));
     cells.push_back(flight_cell({.youngs_modulus_pa = 1e3}));
-    cells.push_back(flight_cell({.youngs_modulus_pa = 1e6}));
-    cells.push_back(flight_cell({.youngs_modulus_pa = 1e9}));
+    for (const double e_pa : {1e6, 1e7, 1e8, 1e9, 1e10, 2e11})
+        cells.push_back(flight_cell({.youngs_modulus_pa = e_pa}));
+    cells.push_back(flight_cell({.youngs_modulus_pa = 1e9, .dt_s = 5e-3}));
+    cells.push_back(flight_cell({.youngs_modulus_pa = 1e9, .poissons_ratio = 0.49}));
+    cells.push_back(flight_cell({.youngs_modulus_pa = 1e9, .flight_s = 10}));
+    cells.push_back(flight_cell({.youngs_modulus_pa = 1e6, .speed_m_per_s = 5}));
+    cells.push_back(flight_cell({.youngs_modulus_pa = 1e9, .speed_m_per_s = 5}));
     cells.push_back(flight_cell({.speed_m_per_s = 5}));
     cells.push_back(flight_cell({.flight_s = 10}));
     cells.push_back(fall_cell(1e-3, 10));

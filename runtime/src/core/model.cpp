@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/loose_parts.h"
+
 namespace knead::core {
 namespace {
 
@@ -81,6 +83,7 @@ Model build_model(const Asset& asset, const std::vector<std::size_t>& tools) {
         model.rest_m[model.from_asset[i]] = Vec(p[0], p[1], p[2]);
     }
     add_elements(asset, model);
+    model.loose_parts = find_loose_parts(model);
     for (std::uint32_t i = 0; i < model.free_count; ++i)
         model.free_mass_kg += model.mass_kg[i];
     Real volume = 0;

@@ -18,6 +18,12 @@ struct Element {
     Real lambda_volume = 0;  ///< Lame's lambda times the rest volume, joules
 };
 
+/// A connected part of the object that nothing holds: its momentum and its spin are its own.
+struct LoosePart {
+    std::vector<std::uint32_t> nodes;  ///< ascending
+    Real mass_kg = 0;
+};
+
 /// The constant data of one object: what the asset says, in the form that steps use.
 ///
 /// Nodes are numbered anew: [0, free_count) are unknowns, in the asset's (nested-dissection) order; those of
@@ -34,6 +40,7 @@ struct Model {
     std::uint32_t moving_count = 0;  ///< free ones and those of bonded tools
     std::vector<Range> bonded;       ///< [tools] nodes that the tool carries; empty unless it is bonded
     std::vector<std::uint32_t> from_asset;  ///< [nodes] number here of each node of the asset
+    std::vector<LoosePart> loose_parts;     ///< mostly none
     Real free_mass_kg = 0;                  ///< of the free nodes together
     Real mean_edge_m = 0;                   ///< of a regular tetrahedron of the mean volume
     Real size_m = 0;                        ///< diagonal of the rest state's bounding box

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/loose_parts.h"
+
 namespace knead::core {
 namespace {
 
@@ -246,19 +248,21 @@ void Solver<S>::start_from_recent(const System<S>& system, Solution<S>& solution
     }
 }
 
-/// What is left of the momentum of a body that nothing holds. It is a translation, exactly, for K knows none,
-/// and of a stiff body the preconditioned residual hardly sees it.
+/// What is left of the momentum of what nothing holds. It is a translation, exactly, for K knows none, and of
+/// stiff matter the preconditioned residual hardly sees it.
 template <class S>
 void Solver<S>::give_momentum(const System<S>& system, Solution<S>& solution) noexcept {
     const Model& model = system.model;
-    if (model.free_count < model.rest_m.size() || !system.constraints.empty()) return;
-    Vec left = Vec::Zero();
-    for (std::uint32_t i = 0; i < model.free_count; ++i)
-        left += residual_.nodes.get(i);
-    const Vec way = left / (system.inertia * model.free_mass_kg);
-    for (std::uint32_t i = 0; i < model.free_count; ++i) {
-        solution.displacement.nodes.add(i, way);
-        residual_.nodes.add(i, -(system.inertia * model.mass_kg[i]) * way);
+    for (const LoosePart& part : model.loose_parts) {
+        if (is_touched(part, system.constraints)) continue;
+        Vec left = Vec::Zero();
+        for (const std::uint32_t i : part.nodes)
+            left += residual_.nodes.get(i);
+        const Vec way = left / (system.inertia * part.mass_kg);
+        for (const std::uint32_t i : part.nodes) {
+            solution.displacement.nodes.add(i, way);
+            residual_.nodes.add(i, -(system.inertia * model.mass_kg[i]) * way);
+        }
     }
 }
 

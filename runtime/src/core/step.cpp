@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/denormals.h"
+#include "core/loose_parts.h"
 #include "core/typed_stepper.h"
 
 namespace knead::core {
@@ -419,6 +420,10 @@ void TypedStepper<S, V>::accept(const Frame* hands, Real dt, bool failed) noexce
         velocities_.fill_zero();
         owed_.fill_zero();
         beyond_.fill_zero();
+    }
+    for (const LoosePart& part : model_.loose_parts) {
+        if (!failed && !is_touched(part, contact_.constraints()))
+            give_spin(part, model_, dt, displacements_, velocities_, beyond_);
     }
     for (std::size_t k = 0; k < tools_.size(); ++k) {
         SteppedTool& tool = tools_[k];

@@ -100,6 +100,20 @@ TEST(Choice_of_numerics, Takes_all_in_double_precision_for_islands_that_are_near
     EXPECT_EQ(choose_numerics(asset).arithmetic, Precision::float64);
 }
 
+TEST(Choice_of_numerics, Takes_all_in_double_precision_for_metal_that_nothing_holds) {
+    Asset asset = asset_of(1296, 1, 0.3);
+    asset.palette[0] = asset.palette[1] = {7800 * 5e3 * 5e3, 0.3, 7800};
+    const auto nodes = static_cast<std::uint32_t>(asset.nodes_m.size());
+    asset.free_node_count = nodes - 1;
+    EXPECT_EQ(choose_numerics(asset).arithmetic, Precision::float32);
+    asset.free_node_count = nodes;
+    const Numerics chosen = choose_numerics(asset);
+    EXPECT_EQ(chosen.arithmetic, Precision::float64);
+    EXPECT_STREQ(to_string(chosen.arithmetic_reason), "stiff_and_loose");
+    asset.palette[0] = asset.palette[1] = {7800 * 3.9e3 * 3.9e3, 0.3, 7800};
+    EXPECT_EQ(choose_numerics(asset).arithmetic, Precision::float32);
+}
+
 TEST(Choice_of_numerics, Does_not_look_at_palette_entries_that_no_tetrahedron_uses) {
     Asset asset = asset_of(6, 10, 0.3);
     asset.palette.push_back({1e12, 0.499, 1000});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -39,7 +40,8 @@ enum class NumericsReason : std::uint8_t {
     nearly_incompressible = 2,  ///< a Poisson's ratio is too near 0.5 for less
     few_tetrahedra = 3,
     many_tetrahedra = 4,
-    stiff_path = 5  ///< far apart, but what is stiff reaches from the tools to what holds the object
+    stiff_path = 5,  ///< far apart, but what is stiff reaches from the tools to what holds the object
+    stiff_and_loose = 6  ///< nothing holds it, and it is as stiff as metal
 };
 
 /// How the runtime solves an asset: told when baking, not stored, chosen again from the same data when
@@ -68,6 +70,10 @@ inline constexpr double kFloat32MaxPressContrast = 1e4;
 inline constexpr double kMixedMaxPressContrast = 1e6;
 /// And as nu comes near 0.5: 1e-4 at 0.495, 1e-2 at 0.499 (islands of 1e6, dt 10 ms).
 inline constexpr double kMixedMaxPoissonsRatio = 0.495;
+/// sqrt(E / density) of an object that nothing holds: it goes away from where it rests, and displacements in
+/// float32 round its strains to 1e-6. That is the energy of a slow flight at 1e4 m/s (grown 11 times), and
+/// nothing at 3e3 m/s (384 tetrahedra, 1 s at 0.5 m/s).
+inline constexpr double kFloat32MaxLooseWaveSpeed_m_per_s = 4e3;
 /// Contrast. A column of the factor in 16 bits keeps 1 / 32,768 of its largest entry. That costs hardly any
 /// iterations up to 1e6 (44 against 43 with a double factor, nu 0.49, dt 10 ms), and it is read in half the
 /// time.
@@ -95,17 +101,25 @@ inline constexpr double kLaplacianMaxContrast = 1e3;
     Numerics chosen;
     double softest = asset.palette[asset.palette_index[0]].youngs_modulus_pa;
     double stiffest = softest;
+    double wave_speed_squared = 0;
     chosen.max_poissons_ratio = asset.palette[asset.palette_index[0]].poissons_ratio;
     for (const std::uint32_t index : asset.palette_index) {  // the palette may hold more than is used
         softest = std::min(softest, asset.palette[index].youngs_modulus_pa);
         stiffest = std::max(stiffest, asset.palette[index].youngs_modulus_pa);
+        wave_speed_squared =
+            std::max(wave_speed_squared,
+                     asset.palette[index].youngs_modulus_pa / asset.palette[index].density_kg_per_m3);
         chosen.max_poissons_ratio = std::max(chosen.max_poissons_ratio, asset.palette[index].poissons_ratio);
     }
     chosen.contrast = stiffest / softest;
     chosen.press_contrast = stiffest / path_youngs_modulus_pa(asset);
     chosen.tetrahedra = asset.tetrahedra.size();
 
-    if (chosen.press_contrast > kFloat32MaxPressContrast) {
+    const bool loose = asset.free_node_count == asset.nodes_m.size();
+    if (loose && std::sqrt(wave_speed_squared) > kFloat32MaxLooseWaveSpeed_m_per_s) {
+        chosen.arithmetic = Precision::float64;
+        chosen.arithmetic_reason = NumericsReason::stiff_and_loose;
+    } else if (chosen.press_contrast > kFloat32MaxPressContrast) {
         // Measured with a factor only.
         const bool mixed = chosen.tetrahedra <= kFactorMaxTetrahedra &&
                            chosen.press_contrast <= kMixedMaxPressContrast &&
