@@ -52,11 +52,12 @@ endif
 #   make asan        all tests under AddressSanitizer and UndefinedBehaviorSanitizer
 #   make asan-quick  those of everything that reads files or moves a hand
 #   make tsan        those of everything that has threads of ours, under ThreadSanitizer
-#   make fuzz        every fuzz target for FUZZ_SECONDS
+#   make fuzz        every fuzz target for FUZZ_SECONDS, with mutations of their own each time (FUZZ_SEED=0) or the same
 #   make crash       100 times kill -9
 #   make coverage    line coverage of formats and runtime
 .PHONY: asan asan-quick tsan fuzz crash coverage check-packages
 FUZZ_SECONDS := 30
+FUZZ_SEED := 0
 # fuzz_cache needs all of knead-evaluate: not in the quick version.
 QUICK := formats_unit_test formats_property_test formats_mutation_test out_of_memory_test common_test scene_test \
          unit_material knead_test test_mesh test_runtime_core test_runtime_api test_runtime_contact \
@@ -85,7 +86,7 @@ tsan: test-packages
 fuzz: check-packages
 	@cmake --preset fuzz
 	@cmake --build --preset fuzz --parallel $(JOBS)
-	@tests/fuzz/run.sh -s $(FUZZ_SECONDS) -j $(JOBS) build/fuzz
+	@tests/fuzz/run.sh -s $(FUZZ_SECONDS) -r $(FUZZ_SEED) -j $(JOBS) build/fuzz
 
 crash: test-packages
 	@cmake --preset release -DKNEAD_BUILD_TESTS=ON

@@ -11,9 +11,9 @@ namespace {
 constexpr std::array<const char*, 3> kPrecisions{"float32", "float64", "mixed"};
 constexpr std::array<const char*, 3> kPreconditioners{"factor", "laplacian", "sparse_inverse"};
 constexpr std::array<const char*, 3> kStorages{"fixed16", "float32", "float64"};
-constexpr std::array<const char*, 7> kReasons{
-    "low_contrast",    "high_contrast", "nearly_incompressible", "few_tetrahedra",
-    "many_tetrahedra", "stiff_path",    "stiff_and_loose"};
+constexpr std::array<const char*, 7> kReasons{"low_contrast",   "high_contrast",   "nearly_incompressible",
+                                              "few_tetrahedra", "many_tetrahedra", "stiff_path",
+                                              "stiff_and_loose"};
 
 /// Four digits are enough for people; independent of the locale.
 std::string short_number(double number) {

@@ -1,18 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Runs the libFuzzer programs of a build made with the preset fuzz, one line for each.
-#   tests/fuzz/run.sh [-s SECONDS] [-n RUNS] [-j JOBS] [-c CORPORA] BUILD [TARGET...]
+#   tests/fuzz/run.sh [-s SECONDS] [-n RUNS] [-r SEED] [-j JOBS] [-c CORPORA] BUILD [TARGET...]
 #   -s  seconds for each target [30]         -n  stop a target after so many runs [none]
+#   -r  of the mutations [0: another each time]
 #   -j  targets at a time [1]                -c  where corpora are kept and grow [BUILD/corpora]
 # An input that crashes, takes more than a second of the processor (entry.cpp) or more than 512 MB ends its
 # target; it is kept in CORPORA/<target>.found, and the script fails. Put it into tests/fuzz/crashers/<target>/
 # once it is mended.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-seconds=30 runs=-1 jobs=1 corpora=
-while getopts s:n:j:c: option; do
+seconds=30 runs=-1 seed=0 jobs=1 corpora=
+while getopts s:n:r:j:c: option; do
     case $option in
-        s) seconds=$OPTARG ;; n) runs=$OPTARG ;; j) jobs=$OPTARG ;; c) corpora=$OPTARG ;; *) exit 2 ;;
+        s) seconds=$OPTARG ;; n) runs=$OPTARG ;; r) seed=$OPTARG ;; j) jobs=$OPTARG ;; c) corpora=$OPTARG ;; *) exit 2 ;;
     esac
 done
 shift $((OPTIND - 1))
@@ -33,7 +34,7 @@ one() {
     leaks=1
     case $target in asset | session | stage) leaks=0 ;; esac
     ASAN_OPTIONS=quarantine_size_mb=16:malloc_context_size=5:detect_leaks=$leaks UBSAN_OPTIONS=print_stacktrace=1 \
-        "$build/tests/fuzz_$target" -max_total_time="$seconds" -runs="$runs" -timeout=30 -rss_limit_mb=512 \
+        "$build/tests/fuzz_$target" -max_total_time="$seconds" -runs="$runs" -seed="$seed" -timeout=30 -rss_limit_mb=512 \
         -malloc_limit_mb=512 -detect_leaks=$leaks -print_final_stats=1 -artifact_prefix="$corpora/$target.found/" \
         "${kept[@]}" >"$log" 2>&1 || status=$?
     executed=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | tail -1)
@@ -44,6 +45,6 @@ one() {
     return $status
 }
 export -f one
-export here build corpora seconds runs
+export here build corpora seconds runs seed
 # shellcheck disable=SC2086
 printf '%s\n' $targets | xargs -P "$jobs" -I{} bash -c 'one {}'

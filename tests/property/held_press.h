@@ -24,7 +24,8 @@ inline Rest settle(Simulation& simulation, const std::vector<Pose>& poses, doubl
     const auto size = static_cast<Eigen::Index>(3 * simulation.node_count());
     Eigen::VectorXd before = Eigen::VectorXd::Zero(size);
     for (int step = 0; step < kLongest; ++step) {
-        if (!is_solved(simulation.step(poses.data(), kDt_s).status)) throw std::runtime_error("a step failed");
+        if (!is_solved(simulation.step(poses.data(), kDt_s).status))
+            throw std::runtime_error("a step failed");
         const Eigen::VectorXd now = Eigen::Map<const Eigen::VectorXd>(simulation.positions_m(), size);
         const double moved = (now - before).lpNorm<Eigen::Infinity>();
         before = now;

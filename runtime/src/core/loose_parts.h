@@ -18,10 +18,10 @@ namespace knead::core {
 
 /// Gives back the spin that one linearisation took or made.
 ///
-/// Elastic forces have no torque about where they act, so that implicit Euler, solved to the end, leaves a part
-/// that nothing holds or touches with sum m x1 x (v1 - v0) = 0 about its centre of mass. The linearised step of
-/// stiff matter misses that by up to a few hundredths of the spin in a second. What is missing is a turn of the
-/// whole part, which strains nothing.
+/// Elastic forces have no torque about where they act, so that implicit Euler, solved to the end, leaves a
+/// part that nothing holds or touches with sum m x1 x (v1 - v0) = 0 about its centre of mass. The linearised
+/// step of stiff matter misses that by up to a few hundredths of the spin in a second. What is missing is a
+/// turn of the whole part, which strains nothing.
 /// @param displacements_m, velocities_m_per_s after the step
 /// @param beyond_m dt (v1 - v0)
 template <class S>

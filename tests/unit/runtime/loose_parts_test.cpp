@@ -61,7 +61,8 @@ TEST(LooseParts, are_those_without_a_node_that_is_fixed_or_bonded) {
             EXPECT_EQ(static_cast<int>(model.rest_m[node].x() / kBetween_m), expected);
         expected = 3;
     }
-    EXPECT_TRUE(core::build_model(cube_asset(2, ToolShape::plate, ToolContact::bonded), {0}).loose_parts.empty());
+    EXPECT_TRUE(
+        core::build_model(cube_asset(2, ToolShape::plate, ToolContact::bonded), {0}).loose_parts.empty());
 }
 
 struct Flight {

@@ -40,7 +40,7 @@ enum class NumericsReason : std::uint8_t {
     nearly_incompressible = 2,  ///< a Poisson's ratio is too near 0.5 for less
     few_tetrahedra = 3,
     many_tetrahedra = 4,
-    stiff_path = 5,  ///< far apart, but what is stiff reaches from the tools to what holds the object
+    stiff_path = 5,      ///< far apart, but what is stiff reaches from the tools to what holds the object
     stiff_and_loose = 6  ///< nothing holds it, and it is as stiff as metal
 };
 
@@ -106,9 +106,8 @@ inline constexpr double kLaplacianMaxContrast = 1e3;
     for (const std::uint32_t index : asset.palette_index) {  // the palette may hold more than is used
         softest = std::min(softest, asset.palette[index].youngs_modulus_pa);
         stiffest = std::max(stiffest, asset.palette[index].youngs_modulus_pa);
-        wave_speed_squared =
-            std::max(wave_speed_squared,
-                     asset.palette[index].youngs_modulus_pa / asset.palette[index].density_kg_per_m3);
+        wave_speed_squared = std::max(wave_speed_squared, asset.palette[index].youngs_modulus_pa /
+                                                              asset.palette[index].density_kg_per_m3);
         chosen.max_poissons_ratio = std::max(chosen.max_poissons_ratio, asset.palette[index].poissons_ratio);
     }
     chosen.contrast = stiffest / softest;
