@@ -29,7 +29,7 @@ struct SimulationConfig {
     int max_solver_iterations = 500;  ///< of the conjugate gradients, per solve, > 0
     int max_contact_passes = 32;      ///< solves, with a changed touched set each, tried in one step, > 0
     /// Times that one step may be linearised, each of them a pass over the tetrahedra and a solve; >= 0.
-    /// 0: once, or up to 8 times in steps above 4 ms of matter that needs it: stiff islands (1e5) in nearly
+    /// 0: once, or up to 8 times in steps above 2.5 ms of matter that needs it: stiff islands (1e5) in nearly
     /// incompressible matter, flat tetrahedra (docs/simulation.md). More are tried only while the solution
     /// still moves.
     int max_linearisations = 0;
