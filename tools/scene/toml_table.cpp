@@ -51,6 +51,12 @@ void require_short_keys(std::string_view text, const std::string& file) {
     }
 }
 
+/// toml++'s own conversion has no answer for whole numbers that a double cannot hold exactly.
+double number_of(const toml::node& node) {
+    if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
+    return node.as_floating_point()->get();
+}
+
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
@@ -118,9 +124,8 @@ std::optional<bool> TomlTable::flag(std::string_view key) {
 std::optional<double> TomlTable::number(std::string_view key) {
     const toml::node* node = find(key);
     if (node == nullptr) return std::nullopt;
-    const auto value = node->is_number() ? node->value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value)) fail(key, "must be a finite number");
-    return value;
+    if (!node->is_number() || !std::isfinite(number_of(*node))) fail(key, "must be a finite number");
+    return number_of(*node);
 }
 
 std::optional<std::uint64_t> TomlTable::count(std::string_view key) {
@@ -132,7 +137,7 @@ std::optional<std::uint64_t> TomlTable::count(std::string_view key) {
 
 double TomlTable::length_of(const toml::node& node, std::string_view key) const {
     if (node.is_number()) {
-        const double metres = *node.value<double>();
+        const double metres = number_of(node);
         if (std::isfinite(metres)) return metres;
     } else if (node.is_string()) {
         try {
@@ -156,8 +161,9 @@ std::vector<double> TomlTable::numbers(std::string_view key) {
     if (!node->is_array()) return {*number(key)};
     std::vector<double> values;
     for (const toml::node& entry : *node->as_array()) {
-        if (!entry.is_number()) fail(key, "must be an array of numbers");
-        values.push_back(*entry.value<double>());
+        if (!entry.is_number() || !std::isfinite(number_of(entry)))
+            fail(key, "must be an array of finite numbers");
+        values.push_back(number_of(entry));
     }
     return values;
 }

@@ -115,6 +115,22 @@ TEST_F(SceneFile, With_bad_values_is_refused_with_the_key) {
     EXPECT_THAT(error_of(replaced("name = \"cube\"", "name = \"../cube\"")), HasSubstr("letters, digits"));
 }
 
+/// More than a double holds exactly: such numbers once were read as whatever stood in memory.
+TEST_F(SceneFile, With_whole_numbers_beyond_2_to_the_53_is_read) {
+    const std::string odd = "9007199254740993", even = "9007199254740992";
+    EXPECT_EQ(read_scene(write(replaced("\"10cm\"", odd))).mesh.size_m,
+              read_scene(write(replaced("\"10cm\"", even))).mesh.size_m);
+    EXPECT_THAT(error_of(replaced("divisions = 4", "divisions = [4, 4, " + odd + "]")),
+                HasSubstr("from 1 to 1000"));
+    EXPECT_THAT(error_of(replaced("divisions = 4", "divisions = " + odd)), HasSubstr("from 1 to 1000"));
+}
+
+TEST_F(SceneFile, With_an_orientation_that_is_not_finite_is_refused) {
+    const std::string shape = "shape = \"plate\"";
+    EXPECT_THAT(error_of(replaced(shape, shape + "\norientation_wxyz = [nan, 0, 0, 0]")),
+                HasSubstr("array of finite numbers"));
+}
+
 TEST_F(SceneFile, That_is_not_toml_is_refused_with_the_line) {
     EXPECT_THAT(error_of("name = \"cube\"\nmesh = [\n"), HasSubstr("not valid TOML"));
     EXPECT_THAT(error_of("name = \"cube\"\n= 3\n"), HasSubstr(".toml:2: not valid TOML"));
