@@ -19,6 +19,9 @@ inline constexpr double kForceGood = 1e-3;
 /// Errors are relative to the reference's force, or to this share of the largest of the run where that is
 /// larger: a force on its way through zero has no relative error.
 inline constexpr double kSmallestForceShare = 0.01;
+/// Steps longer than this may be linearised again (docs/simulation.md) and are then after the converged step:
+/// the error of such a step is the smaller of the two.
+inline constexpr double kMayLineariseAgain_s = 2.5e-3;
 /// Steps compared in a run, evenly spread; fewer would miss the release, more cost minutes.
 inline constexpr std::size_t kComparedSteps = 12;
 

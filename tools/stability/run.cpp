@@ -61,6 +61,7 @@ class Runner {
     void step(std::uint64_t number, double dt_s);
     void count(const StepResult& result);
     void compare(const Snapshot& from, double dt_s, Truth::Step kind, std::vector<ForceSample>& samples);
+    void take_the_nearer(std::size_t count);
     void compare_at_rest();
     void refused(const std::string& words) {
         if (record_.reference_refused++ == 0) record_.reference_words = words;
@@ -169,7 +170,20 @@ void Runner::step(std::uint64_t number, double dt_s) {
     }
     if (!record_.finite || !from) return;
     compare(*from, dt_s, Truth::Step::linearised, record_.against_linearised);
-    if (options_.compare_converged) compare(*from, dt_s, Truth::Step::converged, record_.against_converged);
+    if (!options_.compare_converged) return;
+    const std::size_t before = record_.against_converged.size();
+    compare(*from, dt_s, Truth::Step::converged, record_.against_converged);
+    if (dt_s > criteria::kMayLineariseAgain_s) take_the_nearer(record_.against_converged.size() - before);
+}
+
+/// Of the last samples of both kinds, those of one step.
+void Runner::take_the_nearer(std::size_t count) {
+    if (count != results_.size() || record_.against_linearised.size() < count) return;
+    for (std::size_t k = 1; k <= count; ++k) {
+        ForceSample& sample = *(record_.against_linearised.end() - static_cast<std::ptrdiff_t>(k));
+        const ForceSample& converged = *(record_.against_converged.end() - static_cast<std::ptrdiff_t>(k));
+        if (converged.difference_n < sample.difference_n) sample = converged;
+    }
 }
 
 void Runner::compare(const Snapshot& from, double dt_s, Truth::Step kind, std::vector<ForceSample>& samples) {

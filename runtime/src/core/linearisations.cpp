@@ -6,8 +6,8 @@
 namespace knead::core {
 namespace {
 
-/// A step below it turns matter too little to matter: the case that needs it at 4 ms (islands of 1e9, nu 0.49)
-/// does not at 3.
+/// A step below it turns matter too little to matter: the case that needs it at 4 ms (islands of 1e9, nu
+/// 0.49) does not at 3.
 constexpr Real kLongStep_s = 2.5e-3;
 /// Where it is needed; the cases of the stability matrix take 3 to 8.
 constexpr int kMostOfHardMatter = 8;
@@ -34,11 +34,12 @@ bool is_flat(const Element& element, const Field& rest_m) {
 
 Linearisations::Linearisations(const Model& model, const Numerics& numerics, int most)
     : wanted_(most),
-      hard_(most == 0 &&
-            ((numerics.press_contrast >= kIslandsPressContrast &&
-              numerics.max_poissons_ratio >= kBucklingPoissonsRatio) ||
-             std::any_of(model.elements.begin(), model.elements.end(),
-                         [&](const Element& element) { return is_flat(element, model.rest_m); }))) {}
+      islands_(numerics.press_contrast >= kIslandsPressContrast &&
+               numerics.max_poissons_ratio >= kBucklingPoissonsRatio),
+      hard_(most == 0 && (islands_ || std::any_of(model.elements.begin(), model.elements.end(),
+                                                  [&](const Element& element) {
+                                                      return is_flat(element, model.rest_m);
+                                                  }))) {}
 
 int Linearisations::most(Real dt_s) const noexcept {
     if (wanted_ > 0) return wanted_;

@@ -23,9 +23,12 @@ class Linearisations {
     Linearisations(const Model& model, const Numerics& numerics, int most);
 
     [[nodiscard]] int most(Real dt_s) const noexcept;
+    /// Whether one may overshoot: where there are such islands.
+    [[nodiscard]] bool overshoot() const noexcept { return islands_; }
 
   private:
     int wanted_;
+    bool islands_;
     bool hard_;  ///< the matter is such; not looked at where the application has said what it wants
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/denormals.h"
 #include "core/loose_parts.h"
@@ -168,7 +169,9 @@ StepResult TypedStepper<S, V>::step(const Pose* poses, double dt_s) noexcept {
     // 3. Conjugate gradients, again for as long as the set of touched nodes changes.
     std::uint32_t status = solve_with_contact(system);
     // 4. Where matter asks for it, 2 and 3 again where the solution came.
+    Real way_m = std::numeric_limits<Real>::infinity();
     for (int more = linearisations_.most(dt_s) - 1; more > 0 && status == kStepOk && went_far(); --more) {
+        way_m = cut_overshoot(way_m);
         predict_again(system);
         linearise(system);
         status = solve_with_contact(system);
@@ -282,13 +285,34 @@ void TypedStepper<S, V>::linearise(const System<V>& system) noexcept {
     }
 }
 
-/// Whether the solution is so far from where it was linearised that it may be worth another linearisation.
+/// How far the solution is from where it was linearised: root mean square over the free nodes.
 template <class S, class V>
-bool TypedStepper<S, V>::went_far() const noexcept {
+Real TypedStepper<S, V>::way_of_solution_m() const noexcept {
     const NodeField<V>& d = solution_.displacement.nodes;
     const Real squared = static_cast<Real>(solve_fields_.dot(run_of(model_.free_count), d.data(), d.data()));
-    const Real near = kNearlyLinear * model_.mean_edge_m;
-    return squared > near * near * model_.free_count;
+    return std::sqrt(squared / std::max(1U, model_.free_count));
+}
+
+/// Whether that is so far that it may be worth another linearisation.
+template <class S, class V>
+bool TypedStepper<S, V>::went_far() const noexcept {
+    return way_of_solution_m() > kNearlyLinear * model_.mean_edge_m;
+}
+
+/// Ways become shorter as Newton's method converges. Where stiff islands turn one another, one that is longer
+/// than the last overshoots: it is cut to half of the last, and the next linearisation goes on from there.
+/// (Flat tetrahedra need the whole way.)
+/// @return the way that is left
+template <class S, class V>
+Real TypedStepper<S, V>::cut_overshoot(Real last_m) noexcept {
+    const Real way_m = way_of_solution_m();
+    if (way_m <= last_m || !linearisations_.overshoot()) return way_m;
+    const Real share = last_m / (2 * way_m);
+    NodeField<V>& d = solution_.displacement.nodes;
+    solve_fields_.scale(run_of(model_.free_count), static_cast<V>(share), d.data());
+    for (Vec& tool : solution_.displacement.tools)
+        tool *= share;
+    return share * way_m;
 }
 
 /// The solution becomes the prediction.

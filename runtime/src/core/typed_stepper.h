@@ -64,7 +64,9 @@ class TypedStepper final : public Stepper {
     void couple(SteppedTool& tool, ToolUnknown& unknown, const Frame& hand, Real dt) const noexcept;
     void predict_bonded(std::size_t k) noexcept;
     void linearise(const System<V>& system) noexcept;
+    [[nodiscard]] Real way_of_solution_m() const noexcept;
     [[nodiscard]] bool went_far() const noexcept;
+    Real cut_overshoot(Real last_m) noexcept;
     void predict_again(const System<V>& system) noexcept;
     std::uint32_t solve_with_contact(const System<V>& system) noexcept;
     [[nodiscard]] bool settled(const SolverLimits& limits, std::uint32_t& status) noexcept;
