@@ -126,6 +126,10 @@ void write_tables(const Corpora& seeds) {
     seeds.text("cache", "times",
                R"({"load_ms":1.5,"asset_bytes":1000,"step":{"p50":1,"p99":2,"p999":3,"max":4,"steps":5,)"
                R"("not_ok":0}})");
+    seeds.text("cache", "speed",
+               R"({"runtime":{"p50":1,"p99":2,"p999":3,"max":4,"steps":5,"not_ok":0},)"
+               R"("baseline":{"p50":1,"p99":2,"p999":3,"max":4,"steps":5,"not_ok":0}})");
+    seeds.text("cache", "curve", R"({"time_s":[0,0.001],"force_n":[0,-1.5]})");
     std::string answer;
     for (const double value : {1.0, 2.5, 3.0, 1.0, 0.1, 0.2, 0.3})
         answer.append(reinterpret_cast<const char*>(&value), sizeof value);

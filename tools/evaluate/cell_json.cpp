@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evaluate/cell_json.h"
 
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+#include "evaluate/whole_number.h"
+
 namespace knead::tools {
 namespace {
 
@@ -18,8 +24,9 @@ Json kept_step(const StepTimes& step) {
 }
 
 StepTimes step_of(const Json& json) {
-    return {json.at("p50").get<double>(), json.at("p99").get<double>(), json.at("p999").get<double>(),
-            json.at("max").get<double>(), json.at("steps").get<int>(),  json.at("not_ok").get<int>()};
+    return {json.at("p50").get<double>(),        json.at("p99").get<double>(),
+            json.at("p999").get<double>(),       json.at("max").get<double>(),
+            whole_number<int>(json.at("steps")), whole_number<int>(json.at("not_ok"))};
 }
 
 template <class T>
@@ -32,7 +39,7 @@ void read_cell(const Json& json, CellResult& cell) {
     cell.applicable = json.at("applicable").get<bool>();
     cell.fitted = json.at("fitted").get<bool>();
     cell.problem = json.at("problem").get<std::string>();
-    cell.tetrahedra = json.at("tets").get<std::uint64_t>();
+    cell.tetrahedra = whole_number<std::uint64_t>(json.at("tets"));
     cell.force_n = json.at("force_n").get<double>();
     cell.reference_force_n = json.at("reference_force_n").get<double>();
     cell.displacement_error = json.at("displacement_error").get<double>();
@@ -43,8 +50,31 @@ void read_cell(const Json& json, CellResult& cell) {
 
 void read_times(const Json& json, CellResult& cell) {
     cell.load_ms = json.at("load_ms").get<double>();
-    cell.asset_bytes = json.at("asset_bytes").get<std::uint64_t>();
+    cell.asset_bytes = whole_number<std::uint64_t>(json.at("asset_bytes"));
     cell.step = step_of(json.at("step"));
+}
+
+void read_speed(const Json& json, SpeedPair& pair) {
+    pair = {step_of(json.at("runtime")), step_of(json.at("baseline"))};
+}
+
+void read_curve(const Json& json, ForceCurve& curve) {
+    curve = {json.at("time_s").get<std::vector<double>>(), json.at("force_n").get<std::vector<double>>()};
+    if (curve.time_s.size() != curve.force_n.size()) throw std::length_error("a force for each time");
+}
+
+/// Fills `result` when `read` finds all of it in the text; else leaves it as it is: the text is of another
+/// version of the program, or not ours.
+template <class T>
+bool read_kept(const std::string& text, void (*read)(const Json&, T&), T& result) {
+    T found = result;
+    try {
+        read(Json::parse(text), found);
+    } catch (const std::exception&) {
+        return false;
+    }
+    result = std::move(found);
+    return true;
 }
 
 }  // namespace
@@ -89,14 +119,7 @@ std::string to_cache(const CellResult& cell) {
 }
 
 bool from_cache(const std::string& text, CellResult& cell) {
-    const Json json = Json::parse(text, nullptr, false);
-    if (!json.is_object()) return false;
-    try {
-        read_cell(json, cell);
-        return true;
-    } catch (const Json::exception&) {
-        return false;  // of another version of the program, or not ours
-    }
+    return read_kept(text, read_cell, cell);
 }
 
 std::string times_to_cache(const CellResult& cell) {
@@ -106,14 +129,7 @@ std::string times_to_cache(const CellResult& cell) {
 }
 
 bool times_from_cache(const std::string& text, CellResult& cell) {
-    const Json json = Json::parse(text, nullptr, false);
-    if (!json.is_object()) return false;
-    try {
-        read_times(json, cell);
-        return true;
-    } catch (const Json::exception&) {
-        return false;
-    }
+    return read_kept(text, read_times, cell);
 }
 
 nlohmann::ordered_json to_json(const SpeedResult& speed) {
@@ -130,10 +146,7 @@ std::string speed_to_cache(const SpeedPair& pair) {
 }
 
 bool speed_from_cache(const std::string& text, SpeedPair& pair) {
-    const Json json = Json::parse(text, nullptr, false);
-    if (!json.is_object() || !json.contains("baseline")) return false;
-    pair = {step_of(json.at("runtime")), step_of(json.at("baseline"))};
-    return true;
+    return read_kept(text, read_speed, pair);
 }
 
 std::string curve_to_cache(const ForceCurve& curve) {
@@ -141,10 +154,7 @@ std::string curve_to_cache(const ForceCurve& curve) {
 }
 
 bool curve_from_cache(const std::string& text, ForceCurve& curve) {
-    const Json json = Json::parse(text, nullptr, false);
-    if (!json.is_object() || !json.contains("force_n")) return false;
-    curve = {json.at("time_s").get<std::vector<double>>(), json.at("force_n").get<std::vector<double>>()};
-    return true;
+    return read_kept(text, read_curve, curve);
 }
 
 }  // namespace knead::tools

@@ -72,10 +72,41 @@ TEST(CachedAnswer, Text_of_other_types_is_no_answer_and_no_error) {
     CellResult cell;
     EXPECT_FALSE(from_cache(R"({"converged":1,"runtime_force_n":null})", cell));
     EXPECT_FALSE(times_from_cache(R"({"load_ms":null,"asset_bytes":1,"step":5})", cell));
+    SpeedPair pair;
+    EXPECT_FALSE(speed_from_cache(R"({"runtime":null,"baseline":1})", pair));
+    ForceCurve curve;
+    EXPECT_FALSE(curve_from_cache(R"({"time_s":[0,"one"],"force_n":[1,2]})", curve));
+    EXPECT_FALSE(curve_from_cache(R"({"time_s":[0],"force_n":[1,2]})", curve));
     const double no_number = std::numeric_limits<double>::quiet_NaN();
     for (const auto& head : {std::array{1.0, 2.0, no_number, 0.0}, std::array{1.0, 2.0, 3.0, no_number},
                              std::array{1.0, 2.0, 3.0, 1e300}, std::array{1.0, 2.0, 1e300, 0.0}})
         EXPECT_FALSE(answer_of({reinterpret_cast<const char*>(head.data()), sizeof head}).has_value());
+}
+
+TEST(CachedAnswer, Counts_that_their_type_cannot_hold_are_no_answer) {
+    for (const char* count : {"5e30", "-1", "-1e9", "4294967296", "1.5", "true", "null"}) {
+        const std::string step =
+            std::string(R"({"p50":1,"p99":2,"p999":3,"max":4,"not_ok":0,"steps":)") + count + "}";
+        CellResult cell;
+        EXPECT_FALSE(times_from_cache(R"({"load_ms":1,"asset_bytes":1,"step":)" + step + "}", cell)) << count;
+        EXPECT_FALSE(cell.load_ms || cell.asset_bytes || cell.step) << "filled in part: " << count;
+        SpeedPair pair;
+        EXPECT_FALSE(speed_from_cache(R"({"runtime":)" + step + R"(,"baseline":)" + step + "}", pair))
+            << count;
+    }
+}
+
+TEST(CachedAnswer, Speeds_and_curves_from_the_cache_are_those_that_were_kept) {
+    const SpeedPair kept{{1, 2, 3, 4, 5, 0}, {6, 7, 8, 9, 10, 1}};
+    SpeedPair pair;
+    ASSERT_TRUE(speed_from_cache(speed_to_cache(kept), pair));
+    EXPECT_EQ(pair.runtime.p999_us, 3);
+    EXPECT_EQ(pair.baseline.steps, 10);
+    EXPECT_EQ(pair.baseline.not_ok, 1);
+    ForceCurve curve;
+    ASSERT_TRUE(curve_from_cache(curve_to_cache({{0, 0.001}, {0, -1.5}}), curve));
+    EXPECT_EQ(curve.time_s, (std::vector<double>{0, 0.001}));
+    EXPECT_EQ(curve.force_n, (std::vector<double>{0, -1.5}));
 }
 
 TEST(CachedAnswer, Bytes_that_end_too_early_are_refused) {

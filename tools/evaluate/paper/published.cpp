@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "common/error.h"
+#include "evaluate/whole_number.h"
 
 namespace knead::tools {
 namespace {
@@ -16,14 +17,14 @@ std::uint32_t clusters_of(const std::string& method) {
 }
 
 PublishedPaper::Cell cell_of(const Json& json, const std::string& scene) {
-    return {scene, json.at("tets").get<std::uint64_t>(), clusters_of(json.at("method").get<std::string>()),
-            json.at("value_percent").get<double>() / 100};
+    return {scene, whole_number<std::uint64_t>(json.at("tets")),
+            clusters_of(json.at("method").get<std::string>()), json.at("value_percent").get<double>() / 100};
 }
 
 PublishedPaper read_all(const Json& json) {
     PublishedPaper paper;
     for (const Json& row : json.at("table1"))
-        paper.step_ms[row.at("tets").get<std::uint64_t>()] = row.at("time_ms").get<double>();
+        paper.step_ms[whole_number<std::uint64_t>(row.at("tets"))] = row.at("time_ms").get<double>();
     for (const Json& row : json.at("table2")) {
         const auto scene = row.at("scene").get<std::string>();
         if (row.at("method") == "reference")
@@ -34,7 +35,8 @@ PublishedPaper read_all(const Json& json) {
     for (const Json& row : json.at("steak").at("rows"))
         paper.steak.push_back(cell_of(row, "steak"));
     for (const Json& row : json.at("steak").at("rate_hz"))
-        paper.steak_step_ms[row.at("tets").get<std::uint64_t>()] = 1000 / row.at("value").get<double>();
+        paper.steak_step_ms[whole_number<std::uint64_t>(row.at("tets"))] =
+            1000 / row.at("value").get<double>();
     for (const Json& row : json.at("expected"))
         paper.expected.push_back({row.at("scene").get<std::string>(), row.at("reference_n").get<double>(),
                                   row.at("homogenised_percent").get<double>() / 100});
