@@ -52,7 +52,7 @@ endif
 #   make asan        all tests under AddressSanitizer and UndefinedBehaviorSanitizer
 #   make asan-quick  those of everything that reads files or moves a hand
 #   make tsan        those of everything that has threads of ours, under ThreadSanitizer
-#   make fuzz        every fuzz target for FUZZ_SECONDS, with mutations of their own each time (FUZZ_SEED=0) or the same
+#   make fuzz        every fuzz target for FUZZ_SECONDS; repeats itself with a FUZZ_SEED other than 0
 #   make crash       100 times kill -9
 #   make coverage    line coverage of formats and runtime
 .PHONY: asan asan-quick tsan fuzz crash coverage check-packages
