@@ -32,7 +32,8 @@ TetMesh row_of_blocks(int count) {
     }
     return row;
 }
-int block_of(const Point& p) {
+template <class P>
+int block_of(const P& p) {
     return static_cast<int>(p[0] / kBetween_m);
 }
 
@@ -58,37 +59,17 @@ TEST(LooseParts, are_those_without_a_node_that_is_fixed_or_bonded) {
         EXPECT_EQ(part.nodes.size(), 12u);
         EXPECT_NEAR(part.mass_kg, block_kg, 1e-12);
         for (const std::uint32_t node : part.nodes)
-            EXPECT_EQ(static_cast<int>(model.rest_m[node].x() / kBetween_m), expected);
+            EXPECT_EQ(block_of(model.rest_m[node]), expected);
         expected = 3;
     }
     EXPECT_TRUE(
         core::build_model(cube_asset(2, ToolShape::plate, ToolContact::bonded), {0}).loose_parts.empty());
 }
 
-struct Flight {
-    Vec momentum = Vec::Zero(), spin = Vec::Zero();  ///< kg m/s; kg m^2/s about the part's centre of mass
-};
-Flight flight_of(const Stepper& stepper, int block) {
-    const Field x = stepper.positions_m(), v = stepper.velocities_m_per_s(), rest = stepper.rest_m();
-    Vec middle = Vec::Zero();
-    double mass = 0;
-    Flight flight;
-    const auto is_in = [&](std::size_t i) { return static_cast<int>(rest[i].x() / kBetween_m) == block; };
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        if (!is_in(i)) continue;
-        const double m = stepper.mass_kg()[i];
-        middle += m * x[i];
-        flight.momentum += m * v[i];
-        mass += m;
-    }
-    for (std::size_t i = 0; i < x.size(); ++i)
-        if (is_in(i)) flight.spin += stepper.mass_kg()[i] * (x[i] - middle / mass).cross(v[i]);
-    return flight;
-}
-
 /// Of two stiff blocks one is hit at its end and flies off, spinning; the other lies where it is, held by
 /// nothing or by its bottom.
 TEST(LooseParts, keep_momentum_and_spin_each_for_itself) {
+    const auto block = [](int b) { return [b](const Vec& rest_m) { return block_of(rest_m) == b; }; };
     for (const bool other_is_held : {false, true}) {
         Asset asset = asset_of(row_of_blocks(2), [&](const Point& p) {
             return other_is_held && block_of(p) == 1 && p[2] < kSide_m / 2;
@@ -101,17 +82,15 @@ TEST(LooseParts, keep_momentum_and_spin_each_for_itself) {
         for (int i = 0; i < 50; ++i)
             (void)stepper.step(moved(asset, {0, 0, -0.0001 * i}), 1e-3);
         (void)stepper.step(moved(asset, {0, 0, 1}), 1e-3);
-        const Flight hit = flight_of(stepper, 0);
+        const Flight hit = flight_of(stepper, block(0));
         ASSERT_GT(hit.spin.norm(), 1e-6);
         Vec expected = hit.spin;
         for (int i = 0; i < 500; ++i) {
             const Field v0 = stepper.velocities_m_per_s();
             (void)stepper.step(moved(asset, {0, 0, 1}), 1e-3);
-            const Field v1 = stepper.velocities_m_per_s();
-            for (std::size_t n = 0; n < v0.size(); ++n)  // what implicit Euler itself takes
-                expected += (1e-3 * stepper.mass_kg()[n]) * v1[n].cross(v0[n]);
+            expected += spin_of_implicit_euler(stepper, v0, 1e-3);
         }
-        const Flight now = flight_of(stepper, 0), other = flight_of(stepper, 1);
+        const Flight now = flight_of(stepper, block(0)), other = flight_of(stepper, block(1));
         EXPECT_LT((now.momentum - hit.momentum).norm(), 1e-4 * hit.momentum.norm());
         EXPECT_LT((now.spin - expected).norm(), 1e-3 * hit.spin.norm());
         EXPECT_LT(other.momentum.norm(), 1e-9 * hit.momentum.norm());

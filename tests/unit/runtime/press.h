@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 
 #include "core/simd/kernels.h"
 #include "core/step.h"
@@ -89,6 +90,42 @@ inline SimulationConfig precise() {
     config.force_tolerance = 1e-9;
     config.max_solver_iterations = 5000;
     return config;
+}
+
+/// Motion of the nodes that are `in`, by where they rest: of one body that flies free.
+struct Flight {
+    core::Vec momentum = core::Vec::Zero();  ///< kg m/s
+    core::Vec spin = core::Vec::Zero();      ///< about their centre of mass, kg m^2/s
+};
+inline Flight flight_of(const Stepper& stepper, const std::function<bool(const core::Vec& rest_m)>& in) {
+    const core::Field x = stepper.positions_m(), v = stepper.velocities_m_per_s();
+    core::Vec middle = core::Vec::Zero();
+    double mass = 0;
+    Flight flight;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (!in(stepper.rest_m()[i])) continue;
+        const double m = stepper.mass_kg()[i];
+        middle += m * x[i];
+        mass += m;
+        flight.momentum += m * v[i];
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (!in(stepper.rest_m()[i])) continue;
+        flight.spin += stepper.mass_kg()[i] * (x[i] - middle / mass).cross(v[i]);
+    }
+    return flight;
+}
+inline Flight flight_of(const Stepper& stepper) {
+    return flight_of(stepper, [](const core::Vec&) { return true; });
+}
+
+/// What implicit Euler, solved to the end, makes of the spin of what flies free: dt sum m v1 x v0 in a step.
+inline core::Vec spin_of_implicit_euler(const Stepper& stepper, const core::Field& v0, double dt_s) {
+    const core::Field v1 = stepper.velocities_m_per_s();
+    core::Vec sum = core::Vec::Zero();
+    for (std::size_t i = 0; i < v0.size(); ++i)
+        sum += (dt_s * stepper.mass_kg()[i]) * v1[i].cross(v0[i]);
+    return sum;
 }
 
 }  // namespace knead::test
