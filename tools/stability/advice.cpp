@@ -128,9 +128,8 @@ Advice advice_for(Warning warning) {
             return {
                 "the tool has turned tetrahedra inside out in some steps; they told it. Their forces are the "
                 "model's, which jump where the nearest rotation does, so that there may be no rest",
-                "do not press or pull matter beyond what it bears: limit the tool's way, or take the bit as "
-                "a "
-                "sign to let go; a finer mesh spreads large strains over more tetrahedra"};
+                "do not press or pull matter beyond what it bears: limit the tool's way, or let go where the "
+                "bit is told; a finer mesh spreads large strains over more tetrahedra"};
     }
     return {"", ""};
 }

@@ -61,7 +61,7 @@ class Runner {
     void step(std::uint64_t number, double dt_s);
     void count(const StepResult& result);
     void compare(const Snapshot& from, double dt_s, Truth::Step kind, std::vector<ForceSample>& samples);
-    void take_the_nearer(std::size_t count);
+    void take_the_nearer(std::size_t linearised, std::size_t converged);
     void compare_at_rest();
     void refused(const std::string& words) {
         if (record_.reference_refused++ == 0) record_.reference_words = words;
@@ -169,20 +169,24 @@ void Runner::step(std::uint64_t number, double dt_s) {
         record_.touching_steps += tool.touched_nodes > 0 ? 1 : 0;
     }
     if (!record_.finite || !from) return;
+    const std::size_t linearised = record_.against_linearised.size();
+    const std::size_t converged = record_.against_converged.size();
     compare(*from, dt_s, Truth::Step::linearised, record_.against_linearised);
     if (!options_.compare_converged) return;
-    const std::size_t before = record_.against_converged.size();
     compare(*from, dt_s, Truth::Step::converged, record_.against_converged);
-    if (dt_s > criteria::kMayLineariseAgain_s) take_the_nearer(record_.against_converged.size() - before);
+    if (dt_s > criteria::kMayLineariseAgain_s) take_the_nearer(linearised, converged);
 }
 
-/// Of the last samples of both kinds, those of one step.
-void Runner::take_the_nearer(std::size_t count) {
-    if (count != results_.size() || record_.against_linearised.size() < count) return;
-    for (std::size_t k = 1; k <= count; ++k) {
-        ForceSample& sample = *(record_.against_linearised.end() - static_cast<std::ptrdiff_t>(k));
-        const ForceSample& converged = *(record_.against_converged.end() - static_cast<std::ptrdiff_t>(k));
-        if (converged.difference_n < sample.difference_n) sample = converged;
+/// Of both kinds of samples, where this step gave one of each for every tool.
+/// @param linearised, converged  where those of this step begin
+void Runner::take_the_nearer(std::size_t linearised, std::size_t converged) {
+    if (record_.against_linearised.size() - linearised != results_.size() ||
+        record_.against_converged.size() - converged != results_.size())
+        return;
+    for (std::size_t k = 0; k < results_.size(); ++k) {
+        ForceSample& sample = record_.against_linearised[linearised + k];
+        const ForceSample& other = record_.against_converged[converged + k];
+        if (other.difference_n < sample.difference_n) sample = other;
     }
 }
 
