@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evaluate/cell_json.h"
 
-#include <exception>
 #include <stdexcept>
-#include <utility>
 
+#include "evaluate/kept_json.h"
 #include "evaluate/whole_number.h"
 
 namespace knead::tools {
@@ -61,20 +60,6 @@ void read_speed(const Json& json, SpeedPair& pair) {
 void read_curve(const Json& json, ForceCurve& curve) {
     curve = {json.at("time_s").get<std::vector<double>>(), json.at("force_n").get<std::vector<double>>()};
     if (curve.time_s.size() != curve.force_n.size()) throw std::length_error("a force for each time");
-}
-
-/// Fills `result` when `read` finds all of it in the text; else leaves it as it is: the text is of another
-/// version of the program, or not ours.
-template <class T>
-bool read_kept(const std::string& text, void (*read)(const Json&, T&), T& result) {
-    T found = result;
-    try {
-        read(Json::parse(text), found);
-    } catch (const std::exception&) {
-        return false;
-    }
-    result = std::move(found);
-    return true;
 }
 
 }  // namespace

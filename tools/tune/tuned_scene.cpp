@@ -13,6 +13,7 @@
 #include "common/error.h"
 #include "evaluate/bytes.h"
 #include "evaluate/calibration.h"
+#include "evaluate/kept_json.h"
 #include "evaluate/pinned_thread.h"
 #include "evaluate/region_adapted.h"
 #include "knead/formats/hash.h"
@@ -36,20 +37,12 @@ std::string to_cache(const LoadAnswer& answer) {
         .dump();
 }
 
-std::optional<LoadAnswer> answer_from_cache(const std::string& text) {
-    const auto json = nlohmann::json::parse(text, nullptr, false);
-    if (!json.is_object()) return std::nullopt;
-    try {
-        LoadAnswer answer;
-        answer.converged = json.at("converged").get<bool>();
-        answer.problem = json.at("problem").get<std::string>();
-        answer.force_error =
-            answer.converged ? json.at("force_error").get<double>() : std::numeric_limits<double>::infinity();
-        answer.displacement_error = json.at("displacement_error").get<double>();
-        return answer;
-    } catch (const nlohmann::json::exception&) {
-        return std::nullopt;  // of another version of the program, or not ours
-    }
+void read_answer(const nlohmann::ordered_json& json, LoadAnswer& answer) {
+    answer.converged = json.at("converged").get<bool>();
+    answer.problem = json.at("problem").get<std::string>();
+    answer.force_error =
+        answer.converged ? json.at("force_error").get<double>() : std::numeric_limits<double>::infinity();
+    answer.displacement_error = json.at("displacement_error").get<double>();
 }
 
 bool is_scenes(const std::string& name) {
@@ -253,12 +246,11 @@ LoadAnswer TunedScene::answer(std::size_t mesh, const Recipe& recipe, std::uint6
         "tune\n{}\n{}\n{}\n{}\n{}\n{}", object(seed)->hash, meshes_[mesh].prepared.hash, recipe.text(),
         recipe.uses_seed() ? seed : 0, meshes_[mesh].prepared.loads[load].fingerprint(),
         prepared_.fine.loads[load].fingerprint());
-    if (const auto kept = cache_.find(key))
-        if (auto known = answer_from_cache(*kept)) return *std::move(known);
+    LoadAnswer result;
+    if (const auto kept = cache_.find(key); kept && read_kept(*kept, read_answer, result)) return result;
     const auto wanted = reference(seed, load);
     const auto level = make(mesh, recipe, seed);
     const StaticAnswer found = solve(level->mesh->level.mesh, level->material, level->mesh->loads[load]);
-    LoadAnswer result;
     result.converged = wanted->converged && found.converged;
     result.problem = wanted->converged ? found.problem : wanted->problem;
     result.force_error = std::numeric_limits<double>::infinity();
